@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/geometry/camera.h"
+#include "cslam/geometry/se3.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cslam {
+
+// One known 3D point seen in the image.
+struct PoseObservation {
+  Eigen::Vector3d p_world;             // metres
+  Eigen::Vector2d uv_px;               // undistorted
+  double disparity_px = -1.0;          // fx * baseline / z of the depth reading; negative: none
+  double information_px = 1.0;         // 1 / sigma^2 of u and v
+  double information_disparity = 1.0;  // 1 / sigma^2 of the disparity
+};
+
+struct PoseOptimizerOptions {
+  int rounds = 4;                 // outliers are judged anew after each
+  int iterations_per_round = 10;  // Levenberg-Marquardt steps at most
+  double chi2_mono = 5.991;       // chi2, 2 dof, 95 %
+  double chi2_depth = 7.815;      // chi2, 3 dof, 95 %
+  // Huber's kernel is on (width sqrt of the chi2 above) in all but the last two rounds.
+};
+
+struct PoseSolution {
+  Se3 T_world_camera;
+  std::vector<std::uint8_t> is_inlier;  // one per observation
+  int num_inliers = 0;
+  double mean_chi2 = 0.0;  // over inliers
+  int iterations = 0;      // over all rounds
+  Matrix6 information;     // of T_world_camera, tangent [rotation, translation], T * Exp(x)
+};
+
+// Motion-only optimisation: the pose that best explains the observations, starting from
+// T_world_camera. baseline_m is the virtual stereo baseline. Deterministic.
+PoseSolution OptimizePose(const Camera& camera, double baseline_m, const Se3& T_world_camera,
+                          std::span<const PoseObservation> observations,
+                          const PoseOptimizerOptions& options);
+
+}  // namespace cslam
