@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/map/map_view.h"
+
+#include <string>
+#include <vector>
+
+namespace cslam {
+
+// The map store and its only mutators. One thread owns it; everybody else reads Snapshot()s.
+// Both directions of an observation (keyframe -> point, point -> keyframe) and the covisibility
+// weights change in the same call.
+class Map : public MapView {
+ public:
+  explicit Map(std::vector<double> level_scales);
+
+  const std::vector<double>& level_scales() const { return level_scales_; }
+
+  // An immutable copy of the current revision; cost grows with the number of chunks only.
+  MapView Snapshot();
+
+  // keyframe.id must be new; ids in between are filled with slots that never existed. Its points
+  // and covisible must be empty: observations are added afterwards.
+  void AddKeyframe(Keyframe keyframe);
+
+  // The id is taken and stands for a pose relative to forward_to from the start.
+  void AddForward(KeyframeId id, KeyframeId forward_to, const Se3& T_forward_self);
+
+  // Children of the keyframe are handed to their best covisible neighbour (or its parent), its
+  // observations removed, and its pose forwarded to its parent. A map's first keyframe stays.
+  void CullKeyframe(KeyframeId id);
+
+  // A point of the given map, made when keyframe was inserted and anchored to it.
+  PointId AddPoint(const Eigen::Vector3d& p_world, KeyframeId keyframe);
+
+  // False if the keypoint holds another point or the keyframe already sees this one.
+  bool AddObservation(PointId point, KeyframeId keyframe, int keypoint);
+
+  // The point is erased when its last observation goes.
+  void RemoveObservation(PointId point, KeyframeId keyframe);
+
+  // All that saw drop now sees keep (unless it saw both); drop's id forwards to keep.
+  void FusePoints(PointId keep, PointId drop);
+  void ErasePoint(PointId point);
+
+  void SetPose(KeyframeId keyframe, const Se3& T_world_camera);
+  void SetPosition(PointId point, const Eigen::Vector3d& p_world);
+  void SetParent(KeyframeId keyframe, KeyframeId parent);
+  void AddSightings(PointId point, int expected, int found);
+
+  // Recomputes descriptor, normal and distance limits from the point's observations.
+  void RefreshAppearance(PointId point);
+
+  // Of all maps: ids resolve, observations symmetric, weights recounted, spanning tree connected
+  // and acyclic, nothing NaN. Empty when all hold; otherwise the first violation.
+  std::string CheckInvariants() const;
+
+ private:
+  MapPoint& EditPoint(PointId id);
+  Keyframe& EditKeyframe(KeyframeId id);
+  void AddSharedPoint(KeyframeId a, KeyframeId b, int change);
+
+  std::vector<double> level_scales_;
+};
+
+}  // namespace cslam

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/map/keyframe.h"
+#include "cslam/map/map_point.h"
+#include "cslam/util/cow_array.h"
+
+#include <optional>
+#include <vector>
+
+namespace cslam {
+
+// A pose expressed through a keyframe that is alive.
+struct AnchoredPose {
+  KeyframeId keyframe;
+  Se3 T_keyframe_self;
+};
+
+// Read access to a map's contents: the mapper's own, or an immutable copy of one revision.
+// Holds every map of the atlas; keyframes and points say which map they belong to.
+class MapView {
+ public:
+  // Null when the id is unknown, culled or erased.
+  const Keyframe* FindKeyframe(KeyframeId id) const;
+  const MapPoint* FindPoint(PointId id) const;
+
+  // Ids are handed out from 0 upwards, so these bound every id in use.
+  std::size_t num_keyframe_ids() const { return keyframes_.size(); }
+  std::size_t num_point_ids() const { return points_.size(); }
+  std::size_t num_keyframes() const { return num_keyframes_; }  // alive
+  std::size_t num_points() const { return num_points_; }        // active
+
+  // Follows fusions; nullopt when the point was erased or never existed.
+  std::optional<PointId> Resolve(PointId id) const;
+
+  // Follows culled keyframes to one that is alive; nullopt when the id never existed.
+  std::optional<AnchoredPose> Resolve(KeyframeId id) const;
+
+  // World pose of a keyframe, culled or not.
+  std::optional<Se3> T_world_keyframe(KeyframeId id) const;
+
+  // The alive keyframes, by id.
+  std::vector<KeyframeId> Keyframes() const;
+
+  // Neighbours that share at least min_shared points, most shared first (ties: smaller id).
+  // At most max_count.
+  std::vector<CovisibleKeyframe> Neighbours(KeyframeId id, int min_shared,
+                                            std::size_t max_count) const;
+
+ protected:
+  // Slots of culled keyframes and erased points stay, so ids index directly.
+  CowArray<Keyframe, 1> keyframes_;
+  CowArray<MapPoint, 64> points_;
+  std::size_t num_keyframes_ = 0;
+  std::size_t num_points_ = 0;
+};
+
+}  // namespace cslam
