@@ -3,6 +3,7 @@
 #include "cslam/io/config.h"
 
 #include "cslam/util/check.h"
+#include "cslam/util/text_table.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -227,28 +228,16 @@ std::string DumpYaml(const OptionList& list) {
 
 std::string DumpTable(const OptionList& list, const OptionList& defaults) {
   CSLAM_CHECK(list.entries().size() == defaults.entries().size());
-  std::vector<std::vector<std::string>> rows = {{"option", "value", "unit", "range", "meaning"}};
+  TextTable table({{"option"}, {"value"}, {"unit"}, {"range"}, {"meaning"}});
   for (std::size_t i = 0; i < list.entries().size(); ++i) {
     const OptionEntry& entry = list.entries()[i];
     CSLAM_CHECK(entry.key == defaults.entries()[i].key);
     const std::string preset = FormatValue(defaults.entries()[i]);
     std::string value = FormatValue(entry);
     if (value != preset) value += fmt::format(" (default {})", preset.empty() ? "empty" : preset);
-    rows.push_back({entry.key, value, entry.unit, RangeText(entry), entry.doc});
+    table.AddRow({entry.key, value, entry.unit, RangeText(entry), entry.doc});
   }
-  std::vector<std::size_t> widths(rows[0].size(), 0);
-  for (const std::vector<std::string>& row : rows) {
-    for (std::size_t column = 0; column < row.size(); ++column)
-      widths[column] = std::max(widths[column], row[column].size());
-  }
-  widths.back() = 0;  // nothing follows the last column, so it needs no padding
-  std::string text;
-  for (const std::vector<std::string>& row : rows) {
-    for (std::size_t column = 0; column + 1 < row.size(); ++column)
-      text += fmt::format("{:<{}}  ", row[column], widths[column]);
-    text += row.back() + '\n';
-  }
-  return text;
+  return table.Text();
 }
 
 std::string DumpMarkdown(const OptionList& list) {

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <system_error>
+
+#include "cli_common.h"
+#include "cmd_config.h"
+#include "exit_codes.h"
+#include "parse_error.h"
+#include "version.h"
+
+// Until every command is written.
+#if __has_include("cmd_run.h")
+#include "cmd_run.h"
+#define CSLAM_HAS_RUN
+#endif
+#if __has_include("cmd_eval.h")
+#include "cmd_eval.h"
+#define CSLAM_HAS_EVAL
+#endif
+#if __has_include("cmd_dataset.h")
+#include "cmd_dataset.h"
+#define CSLAM_HAS_DATASET
+#endif
+
+namespace cslam {
+namespace {
+
+constexpr const char* kIssuesUrl = "https://github.com/changing-slam/changing-slam/issues";
+
+// stdout belongs to results, so the log goes to stderr.
+void ConfigureLogging(const std::string& level) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("changing-slam"));
+  spdlog::set_pattern("%H:%M:%S.%e %^%l%$ %v");
+  spdlog::set_level(spdlog::level::from_str(level));
+}
+
+struct GlobalArguments {
+  std::string log_level = "info";
+  bool check_arguments = false;
+};
+
+void AddGlobalArguments(CLI::App& root, GlobalArguments& arguments) {
+  root.set_version_flag("--version",
+                        fmt::format("changing-slam {} (commit {})", Version(), GitCommit()));
+  root.add_option("--log-level", arguments.log_level, "How much to say on stderr")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
+      ->capture_default_str();
+  // Hidden: lets the tests check the examples of --help without running them.
+  root.add_flag("--check-arguments", arguments.check_arguments)->group("");
+  root.parse_complete_callback([&arguments] {
+    if (arguments.check_arguments) throw CLI::Success();
+    ConfigureLogging(arguments.log_level);
+  });
+}
+
+int RunCommandLine(int argc, const char* const* argv) {
+  int exit_code = kExitOk;
+  GlobalArguments arguments;
+  CLI::App root("RGB-D SLAM for dynamic and changing scenes", "changing-slam");
+  root.fallthrough();
+  root.require_subcommand(1);
+  AddGlobalArguments(root, arguments);
+#ifdef CSLAM_HAS_RUN
+  AddRunCommand(root, exit_code);
+#endif
+#ifdef CSLAM_HAS_EVAL
+  AddEvalCommand(root, exit_code);
+#endif
+#ifdef CSLAM_HAS_DATASET
+  AddDatasetCommand(root, exit_code);
+#endif
+  AddConfigCommand(root, exit_code);
+  root.footer(
+      "Examples:\n"
+      "  changing-slam config\n"
+      "  changing-slam config --help");
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return ReportParseError(root, error, argc - 1);
+  }
+  return exit_code;
+}
+
+// Everything after the first line would hide the message from a reader and from scripts.
+void PrintError(std::string_view kind, std::string_view message) {
+  fmt::print(stderr, "changing-slam: {}: {}\n", kind, message.substr(0, message.find('\n')));
+}
+
+int RunGuarded(int argc, const char* const* argv) {
+  try {
+    const int exit_code = RunCommandLine(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      PrintError("error", "cannot write to standard output");
+      return kExitRuntimeError;
+    }
+    return exit_code;
+  } catch (const UsageError& error) {
+    PrintError("error", error.what());
+    return kExitUsage;
+  } catch (const Error& error) {
+    PrintError("error", error.what());
+  } catch (const std::system_error& error) {  // of the file system or of standard output
+    PrintError("error", error.what());
+  } catch (const std::bad_alloc&) {
+    PrintError("error", "out of memory");
+  } catch (const std::exception& error) {
+    PrintError("internal error",
+               fmt::format("{} (please report it: {})", error.what(), kIssuesUrl));
+  }
+  return kExitRuntimeError;
+}
+
+}  // namespace
+}  // namespace cslam
+
+int main(int argc, char** argv) {
+  return cslam::RunGuarded(argc, argv);
+}
