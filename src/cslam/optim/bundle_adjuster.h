@@ -11,6 +11,8 @@
 
 namespace cslam {
 
+class OptionList;
+
 // Point number `point` seen by camera pose number `pose`.
 struct BaObservation {
   int pose = 0;
@@ -36,7 +38,11 @@ struct BundleAdjusterOptions {
   int iterations_final = 10;  // second round, outliers left out, no kernel
   double chi2_mono = 5.991;   // chi2, 2 dof, 95 %
   double chi2_depth = 7.815;  // chi2, 3 dof, 95 %
+  // A round ends early once a step lowers the cost by less than this share.
+  double function_tolerance = 1e-4;
 };
+
+void Describe(OptionList& list, BundleAdjusterOptions& options);
 
 struct BaResult {
   std::vector<Se3> T_world_camera;  // fixed ones unchanged

@@ -11,6 +11,8 @@
 
 namespace cslam {
 
+class OptionList;
+
 // One known 3D point seen in the image.
 struct PoseObservation {
   Eigen::Vector3d p_world;             // metres
@@ -28,17 +30,22 @@ struct PoseOptimizerOptions {
   // Huber's kernel is on (width sqrt of the chi2 above) in all but the last two rounds.
 };
 
+void Describe(OptionList& list, PoseOptimizerOptions& options);
+
 struct PoseSolution {
   Se3 T_world_camera;
   std::vector<std::uint8_t> is_inlier;  // one per observation
   int num_inliers = 0;
   double mean_chi2 = 0.0;  // over inliers
   int iterations = 0;      // over all rounds
-  Matrix6 information;     // of T_world_camera, tangent [rotation, translation], T * Exp(x)
+  // Of T_world_camera, from the inliers; tangent [rotation, translation], T * Exp(x).
+  Matrix6 information = Matrix6::Zero();
 };
 
 // Motion-only optimisation: the pose that best explains the observations, starting from
-// T_world_camera. baseline_m is the virtual stereo baseline. Deterministic.
+// T_world_camera. baseline_m is the virtual stereo baseline. Observations with a non-finite number
+// or without positive information are never inliers. With fewer than three usable observations,
+// or a start pose that is not finite, the start pose comes back. Deterministic.
 PoseSolution OptimizePose(const Camera& camera, double baseline_m, const Se3& T_world_camera,
                           std::span<const PoseObservation> observations,
                           const PoseOptimizerOptions& options);
