@@ -60,6 +60,8 @@ void Describe(OptionList& list, DepthOptions& o) {
            "Baseline of the virtual stereo pair in which depth is expressed as disparity.");
   list.Add("near_baselines", o.near_baselines, {5.0, 500.0}, "baselines",
            "Points nearer than this are made from one view, farther ones by triangulation.");
+  list.Add("disparity_sigma", o.disparity_sigma_px, {0.01, 100.0}, "px",
+           "Standard deviation of a depth reading, as disparity, at pyramid level 0.");
   list.Add("min_depth", o.min_depth_m, {0.0, 10.0}, "m", "Nearer depth readings are dropped.");
   list.Add("max_depth", o.max_depth_m, {0.5, 1000.0}, "m", "Farther depth readings are dropped.");
 }

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/map/map_view.h"
+#include "cslam/vision/rgbd_frame.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Everything that crosses a stage boundary. All of it is immutable once sent.
+namespace cslam {
+
+enum class TrackingState : std::uint8_t {
+  kInitialising,  // no map yet: waiting for a frame with enough depth
+  kTracking,      // the pose is measured
+  kRecentlyLost,  // not found for a moment; the same map is still searched
+  kLost,          // given up: the next good frame starts a new map
+};
+const char* ToString(TrackingState state);
+
+// Why a keyframe was or was not proposed.
+enum class KeyframeReason : std::uint8_t {
+  kNotNeeded,
+  kNotTracking,
+  kFewInliers,  // too few inliers to trust the frame
+  kMapperBusy,  // one would be useful, but enough proposals are in flight
+  kStartsMap,
+  kTooLongAgo,        // the last keyframe is max_interval frames back
+  kReferenceLost,     // the view has moved away from the reference keyframe
+  kNearPointsNeeded,  // few near points are tracked and many could be made
+};
+const char* ToString(KeyframeReason reason);
+inline bool IsProposal(KeyframeReason reason) {
+  return reason >= KeyframeReason::kStartsMap;
+}
+
+// How often the tracker expected a point in view and how often it found it.
+struct PointSightings {
+  PointId point;
+  std::int32_t expected = 0;
+  std::int32_t found = 0;
+};
+
+// tracker -> mapper. The tracker hands out keyframe ids: it alone proposes.
+struct KeyframeProposal {
+  KeyframeId id;
+  MapId map;
+  KeyframeReason reason = KeyframeReason::kNotNeeded;
+  std::shared_ptr<const KeyframeData> data;
+  KeyframeId reference;                   // invalid when the proposal starts a new map
+  Se3 T_reference_camera;                 // relative to reference; to the world for a new map
+  std::vector<PointId> matches;           // one per keypoint; invalid = none. Stale ids are normal
+  std::vector<PointSightings> sightings;  // since the previous proposal
+};
+
+// mapper -> everyone: one revision of the map. The newest wins.
+struct MapSnapshot {
+  std::uint64_t revision = 0;
+  std::uint32_t proposals_applied = 0;  // inserted or refused, since the start or the last reset
+  MapView map;
+};
+
+// Wall-clock time of one step of a stage.
+struct StageTime {
+  const char* stage = "";  // a string literal
+  double ms = 0.0;
+};
+
+// tracker -> sinks: one per input frame.
+struct TrackingResult {
+  FrameId frame;
+  Stamp stamp;
+  TrackingState state = TrackingState::kInitialising;
+  std::string reason;  // why the state is what it is: "287 inliers", "11 inliers < 30", ...
+  MapId map;
+  std::optional<Se3> T_world_camera;  // as known now; set while tracking only
+  KeyframeId reference;               // the pose is stored relative to this keyframe ...
+  Se3 T_reference_camera;             // ... and follows its corrections
+  int num_keypoints = 0;
+  int num_map_matches = 0;  // map points matched before the final optimisation
+  int num_inliers = 0;      // map points the final pose agrees with
+  KeyframeReason keyframe_reason = KeyframeReason::kNotNeeded;
+  std::uint64_t map_revision = 0;  // of the snapshot used
+  std::vector<StageTime> times;
+};
+
+// mapper -> sinks: what one step of the mapper did.
+struct MapUpdate {
+  enum class Step : std::uint8_t { kInserted, kRefined, kRefused };
+  Step step = Step::kInserted;
+  KeyframeId keyframe;
+  std::shared_ptr<const MapSnapshot> snapshot;
+  int points_created = 0;
+  int points_fused = 0;
+  int points_culled = 0;
+  int keyframes_culled = 0;
+  int ba_iterations = 0;
+  bool ba_was_stopped = false;
+  std::vector<StageTime> times;
+};
+
+}  // namespace cslam

@@ -1,0 +1,391 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/tracking/tracker.h"
+
+#include "cslam/tracking/keyframe_policy.h"
+#include "cslam/util/check.h"
+#include "cslam/util/stopwatch.h"
+#include "cslam/vision/depth_thumbnail.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cslam {
+namespace {
+
+constexpr std::size_t Index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool IsNear(const Keypoint& keypoint, const DepthOptions& options) {
+  return keypoint.HasDepth() && static_cast<double>(keypoint.depth_m) < options.near_depth_m();
+}
+
+}  // namespace
+
+struct Tracker::CurrentFrame {
+  std::shared_ptr<KeyframeData> data;
+  const RgbdFrame* frame = nullptr;
+  double since_last_s = 0.0;
+  std::optional<Se3> T_world_last;  // in the map as it is now
+  PoseEstimate estimate;
+  KeyframeId reference;                 // shares most points; chosen with the local map
+  std::vector<ExpectedPoint> expected;  // of the local map
+  bool is_tracked = false;
+  std::optional<KeyframeProposal> proposal;
+  TrackingResult result;
+
+  const FrameFeatures& features() const { return data->features; }
+};
+
+Tracker::Tracker(const Camera& camera, const TrackerOptions& options)
+    : camera_(camera),
+      bounds_(UndistortedBounds(camera)),
+      options_(options),
+      model_(LevelScales(options.orb), options.depth.disparity_sigma_px),
+      extractor_(options.orb) {}
+
+void Tracker::Reset() {
+  state_ = TrackingState::kInitialising;
+  map_ = MapId();
+  history_.Clear();
+  last_data_.reset();
+  last_points_.clear();
+  velocity_.reset();
+  TakeSightings();
+}
+
+TrackerOutput Tracker::Process(const RgbdFrame& frame,
+                               std::shared_ptr<const MapSnapshot> snapshot) {
+  static const auto empty = std::make_shared<const MapSnapshot>();
+  snapshot_ = snapshot ? std::move(snapshot) : empty;
+  history_.Update(snapshot_->map);
+
+  CurrentFrame current;
+  current.data = Observe(frame, current);
+  if (state_ == TrackingState::kTracking || state_ == TrackingState::kRecentlyLost) {
+    TrackFrame(current);
+  }
+  const bool may_start = state_ == TrackingState::kInitialising || state_ == TrackingState::kLost;
+  if (may_start && !current.is_tracked) StartMap(current);
+  if (current.is_tracked && !current.proposal) {
+    current.result.keyframe_reason = DecideKeyframe(current);
+    if (IsProposal(current.result.keyframe_reason)) {
+      current.proposal = Propose(current, current.result.keyframe_reason);
+    }
+  }
+  if (current.is_tracked) Remember(current);
+  return Report(current);
+}
+
+std::shared_ptr<KeyframeData> Tracker::Observe(const RgbdFrame& frame, CurrentFrame& current) {
+  Stopwatch watch;
+  OrbFeatures orb = extractor_.Extract(frame.gray);
+  current.result.times.push_back({"extract", watch.LapMs()});
+  auto data = std::make_shared<KeyframeData>();
+  data->frame = frame.id;
+  data->stamp = frame.stamp;
+  data->features = MeasureFeatures(std::move(orb), frame, camera_, bounds_, options_.depth);
+  current.result.times.push_back({"measure", watch.LapMs()});
+
+  current.frame = &frame;
+  current.result.frame = frame.id;
+  current.result.stamp = frame.stamp;
+  current.result.num_keypoints = static_cast<int>(data->features.size());
+  current.result.map_revision = snapshot_->revision;
+  current.since_last_s = last_data_ ? SecondsBetween(frame.stamp, last_tracked_) : 0.0;
+  current.T_world_last = history_.T_world_last(snapshot_->map);
+  return data;
+}
+
+void Tracker::TrackFrame(CurrentFrame& current) {
+  ++frames_since_keyframe_;
+  if (!current.T_world_last) {
+    FailToTrack(current, "the map it was tracked in is gone");
+    return;
+  }
+  Stopwatch watch;
+  const bool found = EstimateFromMotion(current) || EstimateFromReference(current);
+  current.result.times.push_back({"predict", watch.LapMs()});
+  if (!found) {
+    FailToTrack(current, fmt::format("{} inliers < {} with the last frame",
+                                     current.estimate.num_inliers(), options_.min_first_inliers));
+    return;
+  }
+  RefineWithLocalMap(current);
+  current.result.times.push_back({"local_map", watch.LapMs()});
+  const int inliers = current.estimate.num_inliers();
+  if (inliers < options_.min_inliers) {
+    FailToTrack(current, fmt::format("{} inliers < {}", inliers, options_.min_inliers));
+    return;
+  }
+  CountSightings(current);
+  current.is_tracked = true;
+  state_ = TrackingState::kTracking;
+  current.result.reason = fmt::format("{} inliers", inliers);
+}
+
+// Projects what the last frame saw with a constant-velocity prediction.
+bool Tracker::EstimateFromMotion(CurrentFrame& current) {
+  const Se3 T_last_current = velocity_ ? Exp(*velocity_ * current.since_last_s) : Se3();
+  const Se3 T_world_predicted = *current.T_world_last * T_last_current;
+  const Se3 T_predicted_world = T_world_predicted.Inverse();
+
+  const FrameFeatures& last = last_data_->features;
+  std::vector<Landmark> landmarks;
+  std::vector<ProjectionQuery> queries;
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    Landmark landmark;
+    const auto id =
+        last_points_[i].valid() ? snapshot_->map.Resolve(last_points_[i]) : std::nullopt;
+    if (id) {
+      landmark = {Landmark::Kind::kMapPoint, *id, snapshot_->map.FindPoint(*id)->p_world};
+    } else if (IsNear(last.keypoints[i], options_.depth)) {
+      const Eigen::Vector3d p_last = Unproject(camera_, last.keypoints[i].uv_px.cast<double>(),
+                                               static_cast<double>(last.keypoints[i].depth_m));
+      landmark = {Landmark::Kind::kProvisional, PointId(), *current.T_world_last * p_last};
+    } else {
+      continue;
+    }
+    const Eigen::Vector3d p_camera = T_predicted_world * landmark.p_world;
+    if (p_camera.z() <= 0.05) continue;
+    const Eigen::Vector2d uv = Project(camera_, p_camera);
+    if (!bounds_.Contains(uv)) continue;
+    const int octave = last.keypoints[i].octave;
+    ProjectionQuery query;
+    query.uv_px = uv.cast<float>();
+    query.disparity_px = static_cast<float>(camera_.fx * options_.depth.baseline_m / p_camera.z());
+    query.radius_px = static_cast<float>(options_.last_frame_radius_px * model_.scale(octave));
+    query.min_octave = octave - 1;
+    query.max_octave = octave + 1;
+    query.descriptor = last.descriptors[i];
+    query.angle_rad = last.keypoints[i].angle_rad;
+    landmarks.push_back(landmark);
+    queries.push_back(query);
+  }
+
+  const MatchOptions match_options{
+      .max_distance = options_.local_map.match_distance, .max_ratio = 0.9, .check_rotation = true};
+  auto found = MatchByProjection(current.features(), queries, match_options);
+  if (static_cast<int>(found.size()) < options_.min_last_frame_matches) {
+    for (ProjectionQuery& query : queries)
+      query.radius_px *= 2.0F;
+    found = MatchByProjection(current.features(), queries, match_options);
+  }
+  if (static_cast<int>(found.size()) < options_.min_last_frame_matches) return false;
+  FrameMatches matches(current.features().size());
+  for (const Match& match : found)
+    matches[Index(match.keypoint)] = landmarks[Index(match.query)];
+  current.estimate =
+      EstimatePose(current.features(), std::move(matches), T_world_predicted, Provisional::kUse,
+                   camera_, options_.depth.baseline_m, model_, options_.pose);
+  return current.estimate.num_inliers() >= options_.min_first_inliers;
+}
+
+// Without a prediction: matches descriptors with the reference keyframe.
+bool Tracker::EstimateFromReference(CurrentFrame& current) {
+  const auto anchored = snapshot_->map.Resolve(history_.reference());
+  if (!anchored) return false;
+  const Keyframe& reference = *snapshot_->map.FindKeyframe(anchored->keyframe);
+  std::vector<int> with_point;
+  for (std::size_t i = 0; i < reference.points.size(); ++i) {
+    if (reference.points[i].valid()) with_point.push_back(static_cast<int>(i));
+  }
+  std::vector<int> all(current.features().size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = static_cast<int>(i);
+  const auto found =
+      MatchByDescriptor(reference.data->features, with_point, current.features(), all,
+                        {.max_distance = options_.reference_match_distance,
+                         .max_ratio = options_.reference_match_ratio,
+                         .check_rotation = true});
+  if (static_cast<int>(found.size()) < options_.min_reference_matches) return false;
+  FrameMatches matches(current.features().size());
+  for (const Match& match : found) {
+    const MapPoint& point = *snapshot_->map.FindPoint(reference.points[Index(match.query)]);
+    matches[Index(match.keypoint)] = {Landmark::Kind::kMapPoint, point.id, point.p_world};
+  }
+  current.estimate =
+      EstimatePose(current.features(), std::move(matches), *current.T_world_last,
+                   Provisional::kIgnore, camera_, options_.depth.baseline_m, model_, options_.pose);
+  return current.estimate.num_inliers() >= options_.min_first_inliers;
+}
+
+void Tracker::RefineWithLocalMap(CurrentFrame& current) {
+  const MapView& map = snapshot_->map;
+  FrameMatches matches = std::move(current.estimate.matches);
+  const LocalMap local =
+      SelectLocalMap(map, PointIds(matches), history_.reference(), options_.local_map);
+  current.reference = local.reference.valid() ? local.reference : history_.reference();
+  current.expected = ExpectPoints(map, local.points, current.estimate.T_world_camera, camera_,
+                                  bounds_, options_.depth.baseline_m, model_, options_.local_map);
+
+  std::vector<std::uint8_t> is_taken(matches.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    is_taken[i] = matches[i].kind == Landmark::Kind::kMapPoint ? 1 : 0;
+  }
+  std::vector<ProjectionQuery> queries;
+  queries.reserve(current.expected.size());
+  for (const ExpectedPoint& expected : current.expected)
+    queries.push_back(expected.query);
+  const auto found = MatchByProjection(current.features(), queries,
+                                       {.max_distance = options_.local_map.match_distance,
+                                        .max_ratio = options_.local_map.match_ratio},
+                                       is_taken);
+  for (const Match& match : found) {
+    const PointId id = current.expected[Index(match.query)].point;
+    matches[Index(match.keypoint)] = {Landmark::Kind::kMapPoint, id, map.FindPoint(id)->p_world};
+  }
+
+  const int num_map_matches = CountMatches(matches, Landmark::Kind::kMapPoint);
+  current.result.num_map_matches = num_map_matches;
+  const auto provisional =
+      num_map_matches < options_.use_provisional_below ? Provisional::kUse : Provisional::kIgnore;
+  current.estimate =
+      EstimatePose(current.features(), std::move(matches), current.estimate.T_world_camera,
+                   provisional, camera_, options_.depth.baseline_m, model_, options_.pose);
+}
+
+void Tracker::CountSightings(const CurrentFrame& current) {
+  sightings_.resize(std::max(sightings_.size(), snapshot_->map.num_point_ids()));
+  const auto entry = [&](PointId id) -> PointSightings& {
+    PointSightings& sightings = sightings_[id.index()];
+    if (!sightings.point.valid()) {
+      sightings.point = id;
+      sighted_.push_back(id);
+    }
+    return sightings;
+  };
+  std::vector<std::uint8_t> is_expected(sightings_.size(), 0);
+  for (const ExpectedPoint& expected : current.expected) {
+    ++entry(expected.point).expected;
+    is_expected[expected.point.index()] = 1;
+  }
+  for (const Landmark& match : current.estimate.matches) {
+    if (match.kind != Landmark::Kind::kMapPoint) continue;
+    PointSightings& sightings = entry(match.point);
+    ++sightings.found;
+    if (is_expected[match.point.index()] == 0) ++sightings.expected;
+  }
+}
+
+std::vector<PointSightings> Tracker::TakeSightings() {
+  std::vector<PointSightings> taken;
+  taken.reserve(sighted_.size());
+  for (const PointId id : sighted_) {
+    taken.push_back(sightings_[id.index()]);
+    sightings_[id.index()] = PointSightings{};
+  }
+  sighted_.clear();
+  return taken;
+}
+
+void Tracker::FailToTrack(CurrentFrame& current, std::string reason) {
+  current.result.num_inliers = current.estimate.num_inliers();
+  const bool give_up = !current.T_world_last || current.since_last_s > options_.recently_lost_s;
+  state_ = give_up ? TrackingState::kLost : TrackingState::kRecentlyLost;
+  current.result.reason = std::move(reason);
+}
+
+KeyframeReason Tracker::DecideKeyframe(const CurrentFrame& current) const {
+  const MapView& map = snapshot_->map;
+  KeyframePolicyInput input;
+  input.state = state_;
+  input.num_inliers = current.estimate.num_inliers();
+  input.num_map_keyframes = static_cast<int>(map.num_keyframes());
+  input.frames_since_keyframe = frames_since_keyframe_;
+  input.proposals_in_flight = static_cast<int>(proposals_sent_ - snapshot_->proposals_applied);
+  const std::size_t min_observations = map.num_keyframes() <= 2 ? 2 : 3;
+  if (const Keyframe* reference = map.FindKeyframe(current.reference)) {
+    for (const PointId id : reference->points) {
+      const MapPoint* point = id.valid() ? map.FindPoint(id) : nullptr;
+      if (point != nullptr && point->observations.size() >= min_observations) {
+        ++input.reference_points;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < current.features().size(); ++i) {
+    if (!IsNear(current.features().keypoints[i], options_.depth)) continue;
+    const bool is_map_point = current.estimate.matches[i].kind == Landmark::Kind::kMapPoint;
+    ++(is_map_point ? input.near_tracked : input.near_creatable);
+  }
+  return ChooseKeyframe(input, options_.keyframe);
+}
+
+void Tracker::StartMap(CurrentFrame& current) {
+  const auto& keypoints = current.features().keypoints;
+  const auto with_depth =
+      std::count_if(keypoints.begin(), keypoints.end(), [](const auto& k) { return k.HasDepth(); });
+  if (with_depth < options_.min_initial_points) {
+    if (current.result.reason.empty()) {
+      current.result.reason =
+          fmt::format("{} keypoints with depth < {}", with_depth, options_.min_initial_points);
+    }
+    return;
+  }
+  Reset();
+  map_ = MapId(next_map_++);
+  state_ = TrackingState::kTracking;
+  current.is_tracked = true;
+  current.reference = KeyframeId();
+  current.estimate = PoseEstimate{};
+  current.estimate.matches.resize(keypoints.size());
+  current.result.reason = fmt::format("map {} starts with {} points", map_.value(), with_depth);
+  current.result.keyframe_reason = KeyframeReason::kStartsMap;
+  current.proposal = Propose(current, KeyframeReason::kStartsMap);
+}
+
+KeyframeProposal Tracker::Propose(CurrentFrame& current, KeyframeReason reason) {
+  current.data->depth_small_mm = MakeDepthThumbnail(current.frame->depth_m);
+  KeyframeProposal proposal;
+  proposal.id = KeyframeId(next_keyframe_++);
+  proposal.map = map_;
+  proposal.reason = reason;
+  proposal.data = current.data;
+  proposal.reference = current.reference;
+  const Se3 T_world_reference =
+      current.reference.valid()
+          ? history_.T_world_keyframe(snapshot_->map, current.reference).value()
+          : Se3();
+  proposal.T_reference_camera = T_world_reference.Inverse() * current.estimate.T_world_camera;
+  proposal.matches = PointIds(current.estimate.matches);
+  proposal.sightings = TakeSightings();
+  history_.AddPending(proposal.id, proposal.reference, proposal.T_reference_camera);
+  ++proposals_sent_;
+  frames_since_keyframe_ = 0;
+  current.reference = proposal.id;
+  return proposal;
+}
+
+// Makes the current frame the last one.
+void Tracker::Remember(const CurrentFrame& current) {
+  const Se3& T_world_camera = current.estimate.T_world_camera;
+  const bool continues =
+      last_data_ != nullptr && current.T_world_last && current.since_last_s > 0.0;
+  if (continues) {
+    velocity_ = Log(current.T_world_last->Inverse() * T_world_camera) / current.since_last_s;
+  } else {
+    velocity_.reset();
+  }
+  const Se3 T_world_reference =
+      history_.T_world_keyframe(snapshot_->map, current.reference).value();
+  history_.SetLast(current.reference, T_world_reference.Inverse() * T_world_camera);
+  last_data_ = current.data;
+  last_points_ = PointIds(current.estimate.matches);
+  last_tracked_ = current.data->stamp;
+}
+
+TrackerOutput Tracker::Report(CurrentFrame& current) {
+  TrackingResult& result = current.result;
+  result.state = state_;
+  result.map = map_;
+  if (current.is_tracked) {
+    result.T_world_camera = current.estimate.T_world_camera;
+    result.reference = history_.reference();
+    result.T_reference_camera = history_.T_reference_last();
+    result.num_inliers = current.estimate.num_inliers();
+  }
+  return {std::move(result), std::move(current.proposal)};
+}
+
+}  // namespace cslam

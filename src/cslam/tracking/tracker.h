@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/messages/messages.h"
+#include "cslam/tracking/frame_matches.h"
+#include "cslam/tracking/local_map.h"
+#include "cslam/tracking/pose_history.h"
+#include "cslam/tracking/tracker_options.h"
+
+#include <memory>
+#include <optional>
+
+namespace cslam {
+
+struct TrackerOutput {
+  TrackingResult result;
+  std::optional<KeyframeProposal> proposal;
+};
+
+// Estimates the camera pose of every frame against the newest map snapshot, and proposes
+// keyframes. Synchronous and single-threaded; never touches the map itself.
+//
+// Poses are kept relative to a keyframe, so when a snapshot has moved that keyframe the tracker
+// moves along and sees no jump.
+class Tracker {
+ public:
+  Tracker(const Camera& camera, const TrackerOptions& options);
+
+  // Frames in order of time. snapshot: the newest there is; null before the first.
+  TrackerOutput Process(const RgbdFrame& frame, std::shared_ptr<const MapSnapshot> snapshot);
+
+  // Forgets everything but the ids handed out: the next good frame starts a new map.
+  void Reset();
+
+ private:
+  struct CurrentFrame;  // what is being worked out for the frame at hand
+
+  std::shared_ptr<KeyframeData> Observe(const RgbdFrame& frame, CurrentFrame& current);
+  void TrackFrame(CurrentFrame& current);
+  bool EstimateFromMotion(CurrentFrame& current);
+  bool EstimateFromReference(CurrentFrame& current);
+  void RefineWithLocalMap(CurrentFrame& current);
+  void CountSightings(const CurrentFrame& current);
+  void FailToTrack(CurrentFrame& current, std::string reason);
+  KeyframeReason DecideKeyframe(const CurrentFrame& current) const;
+  void StartMap(CurrentFrame& current);
+  KeyframeProposal Propose(CurrentFrame& current, KeyframeReason reason);
+  void Remember(const CurrentFrame& current);
+  TrackerOutput Report(CurrentFrame& current);
+  std::vector<PointSightings> TakeSightings();
+
+  const Camera camera_;
+  const ImageBounds bounds_;
+  const TrackerOptions options_;
+  const MeasurementModel model_;
+  OrbExtractor extractor_;
+
+  std::shared_ptr<const MapSnapshot> snapshot_;
+  TrackingState state_ = TrackingState::kInitialising;
+  MapId map_;
+  std::uint32_t next_map_ = 0;
+  std::uint32_t next_keyframe_ = 0;
+  std::uint32_t proposals_sent_ = 0;
+  int frames_since_keyframe_ = 0;
+  PoseHistory history_;  // poses that follow the map's corrections
+
+  // The last tracked frame.
+  std::shared_ptr<const KeyframeData> last_data_;
+  std::vector<PointId> last_points_;
+  Stamp last_tracked_;
+  std::optional<Vector6> velocity_;  // tangent of T_previous_current per second
+
+  std::vector<PointSightings> sightings_;  // by point id
+  std::vector<PointId> sighted_;           // those with an entry
+};
+
+}  // namespace cslam

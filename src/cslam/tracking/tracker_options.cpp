@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/tracking/tracker_options.h"
+
+#include "cslam/util/options.h"
+
+namespace cslam {
+
+void Describe(OptionList& list, KeyframePolicyOptions& o) {
+  list.Add("min_inliers", o.min_inliers, {1, 10'000}, "matches",
+           "Fewest inliers for a frame to be trusted as a keyframe.");
+  list.Add("max_interval", o.max_interval_frames, {1, 100'000}, "frames",
+           "Insert at the latest this many frames after the last keyframe.");
+  list.Add("reference_ratio", o.reference_ratio, {0.0, 1.0}, "",
+           "Insert when inliers fall below this share of the reference keyframe's points.");
+  list.Add("reference_ratio_first", o.reference_ratio_first, {0.0, 1.0}, "",
+           "The same while the map has a single keyframe.");
+  list.Add("near_tracked_low", o.near_tracked_low, {0, 10'000}, "points",
+           "Fewer tracked near points than this call for a keyframe ...");
+  list.Add("near_creatable_high", o.near_creatable_high, {0, 10'000}, "points",
+           "... if more than this many near points could be made.");
+  list.Add("max_in_flight", o.max_in_flight, {1, 100}, "keyframes",
+           "No further proposal while this many have not been applied.");
+}
+
+void Describe(OptionList& list, LocalMapOptions& o) {
+  list.Add("max_keyframes", o.max_keyframes, {1, 1000}, "keyframes",
+           "Largest local map: keyframes that share points with the frame, and neighbours.");
+  list.Add("neighbours_per_keyframe", o.neighbours_per_keyframe, {0, 100}, "keyframes",
+           "Covisible keyframes considered for each keyframe that shares points.");
+  list.Add("min_shared_points", o.min_shared_points, {1, 1000}, "points",
+           "Points two keyframes share to count as neighbours.");
+  list.Add("max_view_angle", o.max_view_angle_deg, {1.0, 90.0}, "deg",
+           "A point is expected only within this angle of its mean viewing direction.");
+  list.Add("radius_frontal", o.radius_frontal_px, {0.5, 50.0}, "px",
+           "Search radius at level 0 when a point is seen from its mean direction.");
+  list.Add("radius_oblique", o.radius_oblique_px, {0.5, 50.0}, "px",
+           "Search radius at level 0 when it is seen from elsewhere.");
+  list.Add("radius_factor", o.radius_factor, {0.5, 20.0}, "",
+           "Widens both radii: RGB-D poses are predicted from noisy depth.");
+  list.Add("match_ratio", o.match_ratio, {0.1, 1.0}, "",
+           "Best descriptor distance over second best at the same level.");
+  list.Add("match_distance", o.match_distance, {1, 256}, "bits",
+           "Most differing descriptor bits of a match by projection.");
+}
+
+void Describe(OptionList& list, TrackerOptions& o) {
+  list.Group("orb", o.orb);
+  list.Group("depth", o.depth);
+  list.Group("pose", o.pose);
+  list.Group("keyframe", o.keyframe);
+  list.Group("local_map", o.local_map);
+  list.Add("min_initial_points", o.min_initial_points, {10, 10'000}, "points",
+           "Keypoints with depth that a map's first frame needs.");
+  list.Add("last_frame_radius", o.last_frame_radius_px, {1.0, 200.0}, "px",
+           "Search radius around the motion model's prediction, at level 0; doubled on failure.");
+  list.Add("min_last_frame_matches", o.min_last_frame_matches, {4, 1000}, "matches",
+           "Matches with the last frame for the motion model to be believed.");
+  list.Add("min_reference_matches", o.min_reference_matches, {4, 1000}, "matches",
+           "Matches with the reference keyframe for the fallback to be believed.");
+  list.Add("min_first_inliers", o.min_first_inliers, {3, 1000}, "matches",
+           "Inliers of the first pose estimate, before the local map is searched.");
+  list.Add("min_inliers", o.min_inliers, {5, 1000}, "matches",
+           "Inliers of the final pose; with fewer the frame is not tracked.");
+  list.Add("use_provisional_below", o.use_provisional_below, {0, 10'000}, "matches",
+           "With fewer map matches the final pose also uses the last frame's own depth points.");
+  list.Add("recently_lost_time", o.recently_lost_s, {0.0, 1000.0}, "s",
+           "How long a lost frame's map is searched before a new one may start.");
+  list.Add("reference_match_distance", o.reference_match_distance, {1, 256}, "bits",
+           "Most differing descriptor bits of a match without prediction.");
+  list.Add("reference_match_ratio", o.reference_match_ratio, {0.1, 1.0}, "",
+           "Best descriptor distance over second best of a match without prediction.");
+}
+
+}  // namespace cslam
