@@ -3,41 +3,20 @@
 #include "cslam/io/image_codec.h"
 
 #include "cslam/io/png_stream.h"
+#include "cslam/io/text_lines.h"
 #include "cslam/util/atomic_file.h"
 #include "cslam/util/check.h"
 
 #include <turbojpeg.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 namespace cslam {
 namespace {
 
 constexpr int kMaxSide = 16384;  // px, as for cameras
-
-struct FileCloser {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-std::string ReadFile(const std::filesystem::path& path) {
-  const auto reason = [] { return std::generic_category().message(errno); };
-  const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw Error("cannot read image '{}': {}", path.string(), reason());
-  std::string bytes;
-  std::string block(std::size_t{1} << 18, '\0');
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
-    bytes.append(block, 0, count);
-  }
-  if (std::ferror(file.get()) != 0) {
-    throw Error("cannot read image '{}': {}", path.string(), reason());
-  }
-  return bytes;
-}
 
 bool IsPng(std::string_view bytes) {
   return bytes.starts_with("\x89PNG\r\n\x1a\n");
@@ -109,7 +88,7 @@ cv::Mat FinishPng(const std::filesystem::path& path, PngReader& reader, int type
 }  // namespace
 
 cv::Mat ReadColorImage(const std::filesystem::path& path) {
-  const std::string bytes = ReadFile(path);
+  const std::string bytes = ReadBytes(path, "image");
   if (IsJpeg(bytes)) return DecodeJpeg(path, bytes);
   if (!IsPng(bytes)) ThrowUnknownType(path, bytes);
   PngReader reader = OpenPng(path, bytes);
@@ -122,7 +101,7 @@ cv::Mat ReadColorImage(const std::filesystem::path& path) {
 }
 
 cv::Mat ReadDepthImage(const std::filesystem::path& path) {
-  const std::string bytes = ReadFile(path);
+  const std::string bytes = ReadBytes(path, "image");
   if (IsJpeg(bytes)) {
     throw Error("depth image '{}' is a JPEG, expected a 16-bit single-channel PNG", path.string());
   }

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/io/tum_dataset.h"
+
+#include "cslam/io/image_codec.h"
+#include "cslam/util/check.h"
+#include "cslam/util/test_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include <string>
+
+namespace cslam {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+// A sequence of num_frames small images in folder/rgb and folder/depth, with lists and a camera.
+class TumDatasetTest : public testing::Test {
+ protected:
+  void SetUp() override { MakeSequence(4); }
+
+  void MakeSequence(int num_frames) {
+    std::filesystem::create_directories(folder_ / "rgb");
+    std::filesystem::create_directories(folder_ / "depth");
+    std::string associations;
+    for (int i = 0; i < num_frames; ++i) {
+      WritePng(Color(i), cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar(10 * i, 20, 30)));
+      WritePng(Depth(i), cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(1500 + i)));
+      associations += fmt::format("{0}.0 rgb/{0}.png {0}.01 depth/{0}.png\n", i);
+    }
+    folder_.Write("associations.txt", associations);
+    folder_.Write("camera.yaml",
+                  fmt::format("width: {}\nheight: {}\nfx: 50\nfy: 50\ncx: 32\ncy: 24\n"
+                              "depth_scale: 1000\n",
+                              kWidth, kHeight));
+  }
+
+  std::filesystem::path Color(int i) const { return folder_ / fmt::format("rgb/{}.png", i); }
+  std::filesystem::path Depth(int i) const { return folder_ / fmt::format("depth/{}.png", i); }
+
+  std::string OpenError(const DatasetOptions& options = {}) const {
+    return MessageOf([&] { OpenDataset(folder_.path(), options); });
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(TumDatasetTest, LoadsGrayColourAndDepthInMetres) {
+  const auto dataset = OpenDataset(folder_.path());
+  ASSERT_EQ(dataset->size(), 4U);
+  const LoadResult result = dataset->Load(2);
+  ASSERT_TRUE(result.frame.has_value()) << result.problem;
+  EXPECT_EQ(result.problem, "");
+  EXPECT_EQ(result.frame->id, FrameId(2));
+  EXPECT_EQ(result.frame->stamp, Stamp{2'000'000'000});
+  EXPECT_EQ(dataset->stamp(2), result.frame->stamp);
+  EXPECT_EQ(result.frame->bgr.at<cv::Vec3b>(5, 5), cv::Vec3b(20, 20, 30));
+  EXPECT_EQ(result.frame->gray.type(), CV_8UC1);
+  EXPECT_EQ(result.frame->gray.at<unsigned char>(5, 5), 23);  // 0.114 B + 0.587 G + 0.299 R
+  EXPECT_EQ(result.frame->depth_m.type(), CV_32FC1);
+  EXPECT_EQ(result.frame->depth_m.at<float>(5, 5), 1.502F);
+  EXPECT_EQ(dataset->camera().source, "camera.yaml in the folder");
+}
+
+TEST_F(TumDatasetTest, PlaysAPartAndKeepsTheIds) {
+  const auto dataset =
+      OpenDataset(folder_.path(), {.camera = {}, .from = 1, .frames = 2, .is_strict = false});
+  ASSERT_EQ(dataset->size(), 2U);
+  EXPECT_EQ(dataset->Load(0).frame->id, FrameId(1));
+  EXPECT_EQ(dataset->stamp(1), Stamp{2'000'000'000});
+  EXPECT_EQ(OpenDataset(folder_.path(), {.camera = {}, .from = 3, .frames = 9, .is_strict = false})
+                ->size(),
+            1U);
+}
+
+TEST_F(TumDatasetTest, RefusesAPartWithoutFrames) {
+  EXPECT_THAT(OpenError({.camera = {}, .from = 4, .frames = {}, .is_strict = false}),
+              HasSubstr("has 4 frames (0 to 3); there is nothing from frame 4 on"));
+  EXPECT_THAT(OpenError({.camera = {}, .from = 0, .frames = 0, .is_strict = false}),
+              HasSubstr("0 frames were asked for"));
+}
+
+TEST_F(TumDatasetTest, OverridesTheDepthScale) {
+  DatasetOptions options;
+  options.camera.depth_units_per_m = 5000.0;
+  EXPECT_EQ(OpenDataset(folder_.path(), options)->Load(0).frame->depth_m.at<float>(0, 0), 0.3F);
+}
+
+TEST_F(TumDatasetTest, SkipsAMissingImageWithItsName) {
+  std::filesystem::remove(Depth(1));
+  const auto dataset = OpenDataset(folder_.path());
+  const LoadResult result = dataset->Load(1);
+  EXPECT_FALSE(result.frame.has_value());
+  EXPECT_EQ(result.fault, FrameFault::kMissing);
+  EXPECT_THAT(result.problem, AllOf(HasSubstr(Depth(1).string()), HasSubstr("does not exist")));
+  EXPECT_TRUE(dataset->Load(2).frame.has_value());
+}
+
+TEST_F(TumDatasetTest, SkipsATruncatedImageWithTheReason) {
+  std::filesystem::resize_file(Color(1), std::filesystem::file_size(Color(1)) - 20);
+  const LoadResult result = OpenDataset(folder_.path())->Load(1);
+  EXPECT_EQ(result.fault, FrameFault::kUnreadable);
+  EXPECT_THAT(result.problem, AllOf(HasSubstr(Color(1).string()), HasSubstr("truncated")));
+}
+
+TEST_F(TumDatasetTest, SkipsAnImageOfWrongTypeOrSize) {
+  WritePng(Depth(1), cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(9)));
+  WritePng(Depth(2), cv::Mat(kHeight / 2, kWidth, CV_16UC1, cv::Scalar(9)));
+  WritePng(Color(3), cv::Mat(kHeight, kWidth / 2, CV_8UC3, cv::Scalar(9)));
+  const auto dataset = OpenDataset(folder_.path());
+  EXPECT_EQ(dataset->Load(1).fault, FrameFault::kUnreadable);
+  EXPECT_THAT(dataset->Load(1).problem, HasSubstr("expected 16-bit"));
+  EXPECT_EQ(dataset->Load(2).fault, FrameFault::kWrongSize);
+  EXPECT_THAT(dataset->Load(2).problem, AllOf(HasSubstr("64x24"), HasSubstr("64x48")));
+  EXPECT_EQ(dataset->Load(3).fault, FrameFault::kWrongSize);
+}
+
+TEST_F(TumDatasetTest, StopsAtAnUnreadableFrameWhenStrict) {
+  std::filesystem::remove(Depth(1));
+  const auto dataset =
+      OpenDataset(folder_.path(), {.camera = {}, .from = 0, .frames = {}, .is_strict = true});
+  EXPECT_TRUE(dataset->Load(0).frame.has_value());
+  EXPECT_THAT(MessageOf([&] { dataset->Load(1); }),
+              AllOf(HasSubstr("frame 1:"), HasSubstr("does not exist"), HasSubstr("--strict")));
+}
+
+TEST_F(TumDatasetTest, LoadsDepthWithoutAnyReading) {
+  WritePng(Depth(1), cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(0)));
+  const LoadResult result = OpenDataset(folder_.path())->Load(1);
+  ASSERT_TRUE(result.frame.has_value());
+  EXPECT_EQ(cv::countNonZero(result.frame->depth_m), 0);
+}
+
+TEST_F(TumDatasetTest, NamesBothSizesWhenTheCameraIsOfAnother) {
+  DatasetOptions options;
+  options.camera.camera = "tum_fr1";
+  EXPECT_THAT(OpenError(options), AllOf(HasSubstr("is 64x48"), HasSubstr("(tum_fr1) is 640x480"),
+                                        HasSubstr("--camera")));
+}
+
+TEST_F(TumDatasetTest, RefusesASequenceOfWhichNothingCanBeRead) {
+  std::filesystem::remove_all(folder_ / "depth");
+  EXPECT_THAT(OpenError(),
+              AllOf(HasSubstr("none of the 4 frames can be read"), HasSubstr(Depth(0).string())));
+}
+
+TEST_F(TumDatasetTest, OpensASequenceWhoseFirstFramesAreBad) {
+  std::filesystem::remove(Color(0));
+  WritePng(Color(1), cv::Mat(kHeight, kWidth / 2, CV_8UC3, cv::Scalar(9)));
+  EXPECT_EQ(OpenDataset(folder_.path())->size(), 4U);
+}
+
+TEST_F(TumDatasetTest, ReportsGroundTruth) {
+  EXPECT_EQ(OpenDataset(folder_.path())->ground_truth(), std::nullopt);
+  folder_.Write("groundtruth_camera.txt", "");
+  EXPECT_EQ(OpenDataset(folder_.path())->ground_truth(), folder_ / "groundtruth_camera.txt");
+  folder_.Write("groundtruth.txt", "");
+  EXPECT_EQ(OpenDataset(folder_.path())->ground_truth(), folder_ / "groundtruth.txt");
+}
+
+TEST(OpenDataset, SaysWhatIsWrongWithAPlaceThatIsNoDataset) {
+  const TestFolder folder;
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder / "none"); }),
+              AllOf(HasSubstr("no such folder"), HasSubstr("none")));
+  const auto file = folder.Write("file.bag", "x");
+  EXPECT_THAT(MessageOf([&] { OpenDataset(file); }), HasSubstr("is a file"));
+  std::filesystem::create_directories(folder / "rgb");
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path()); }),
+              AllOf(HasSubstr("is no data set"), HasSubstr("associations.txt"),
+                    HasSubstr("rgb.txt or rgb/"), HasSubstr("depth.txt or depth/")));
+}
+
+TEST(OpenDataset, PointsAtADatasetInsideTheFolder) {
+  const TestFolder folder;
+  folder.Write("b/associations.txt", "");
+  folder.Write("a/associations.txt", "");
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path()); }),
+              HasSubstr("did you mean '" + (folder / "a").string() + "'?"));
+}
+
+TEST(OpenDataset, AsksForACameraWhenNoneIsKnown) {
+  const TestFolder folder;
+  folder.Write("kitchen/associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder / "kitchen"); }),
+              AllOf(HasSubstr("no camera known"), HasSubstr("tum_fr1")));
+}
+
+}  // namespace
+}  // namespace cslam
