@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/sim/simulated_sequence.h"
+
+#include "cslam/sim/room.h"
+#include "cslam/util/check.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace cslam {
+namespace {
+
+constexpr double kFocalPerWidth = 525.0 / 640.0;
+constexpr double kDemoDuration_s = 20.0;
+constexpr std::int64_t kFirstStamp_ns = 1'000'000'000;
+
+int CountFrames(const SequenceOptions& options, double duration_s) {
+  if (options.num_frames > 0) return options.num_frames;
+  return std::max(1, static_cast<int>(std::floor(duration_s * options.fps + 1e-9)));
+}
+
+}  // namespace
+
+SimulatedSequence::SimulatedSequence(Scene scene, CameraPath path, const SequenceOptions& options)
+    : renderer_(std::make_shared<const Renderer>(
+          std::move(scene), MakeSimulatedCamera(options.width, options.height))),
+      path_(std::move(path)),
+      options_(options),
+      num_frames_(CountFrames(options, path_.duration_s())) {}
+
+Stamp SimulatedSequence::stamp(int i) const {
+  CSLAM_CHECK(i >= 0 && i < num_frames_, "frame {} of {}", i, num_frames_);
+  // Whole microseconds: what six decimals in a list file can say.
+  return Stamp{kFirstStamp_ns + 1000 * std::llround(1e6 * i / options_.fps)};
+}
+
+Se3 SimulatedSequence::T_world_camera(int i) const {
+  return path_.T_world_camera(SecondsBetween(stamp(i), Stamp{kFirstStamp_ns}));
+}
+
+RenderedView SimulatedSequence::Truth(int i) const {
+  return renderer_->Render(T_world_camera(i));
+}
+
+RgbdFrame SimulatedSequence::Frame(int i) const {
+  return Observe(i, Truth(i));
+}
+
+RgbdFrame SimulatedSequence::Observe(int i, const RenderedView& truth) const {
+  RgbdFrame frame;
+  frame.id = FrameId(static_cast<std::uint32_t>(i));
+  frame.stamp = stamp(i);
+  const auto stream = static_cast<std::uint64_t>(i);
+  frame.bgr = options_.sensor_noise
+                  ? AddColorNoise(truth.bgr, ColorNoiseOptions{}, options_.seed, stream)
+                  : truth.bgr;
+  frame.depth_m = options_.sensor_noise ? AddDepthNoise(truth.depth_m, camera(),
+                                                        DepthNoiseOptions{}, options_.seed, stream)
+                                        : truth.depth_m;
+  cv::cvtColor(frame.bgr, frame.gray, cv::COLOR_BGR2GRAY);
+  return frame;
+}
+
+SimulatedSequence MakeDemoSequence(const SequenceOptions& options) {
+  RoomOptions room;
+  room.seed = options.seed;
+  room.texels_per_m = std::clamp(options.width * 1.5, 240.0, 1200.0);
+  return {MakeRoom(room), MakeDemoPath(options.seed), options};
+}
+
+CameraPath MakeDemoPath(std::uint64_t seed) {
+  // Around the table in the middle, looking outwards: near the desks, then across the room.
+  struct Stop {
+    double x, y, z, yaw_deg, pitch_deg;
+  };
+  const std::vector<Stop> stops{
+      {3.0, 1.5, 1.35, 60, -14},  {3.5, 1.6, 1.35, 72, -16},  {4.1, 1.9, 1.30, 70, -18},
+      {4.3, 2.5, 1.30, 62, -20},  {4.1, 3.0, 1.35, 80, -18},  {3.6, 3.3, 1.40, 105, -16},
+      {3.0, 3.4, 1.40, 132, -16}, {2.4, 3.3, 1.35, 155, -18}, {1.9, 3.0, 1.30, 176, -18},
+      {1.6, 2.5, 1.30, 196, -16}, {1.7, 1.9, 1.35, 214, -18}, {2.1, 1.6, 1.40, 238, -20},
+      {2.7, 1.5, 1.40, 266, -18}, {3.3, 1.6, 1.35, 294, -18}, {3.8, 1.8, 1.30, 322, -18},
+      {4.1, 2.2, 1.30, 350, -16}, {4.0, 2.3, 1.30, 376, -14}, {3.6, 2.0, 1.32, 400, -14},
+      {3.2, 1.7, 1.35, 416, -14}, {3.0, 1.55, 1.35, 424, -14}};
+  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+  std::vector<PathKey> keys;
+  for (const Stop& s : stops)
+    keys.push_back({{s.x, s.y, s.z}, s.yaw_deg * kRadPerDeg, s.pitch_deg * kRadPerDeg});
+  return {keys, kDemoDuration_s, HandWobble{.seed = seed}};
+}
+
+Camera MakeSimulatedCamera(int width, int height) {
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = camera.fy = kFocalPerWidth * width;
+  camera.cx = 0.5 * (width - 1);
+  camera.cy = 0.5 * (height - 1);
+  return camera;
+}
+
+}  // namespace cslam
