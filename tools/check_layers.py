@@ -35,6 +35,7 @@ TEST_TOOLS = {"io", "eval", "sim"}  # tests of any layer may use these
 
 THREAD_FILES = {  # all others are synchronous
     "src/cslam/util/channel.h",
+    "src/cslam/util/gate.h",
     "src/cslam/util/latest.h",
     "src/cslam/pipeline/threaded_executor.h",
     "src/cslam/pipeline/threaded_executor.cpp",

@@ -155,7 +155,7 @@ std::string RangeText(const OptionEntry& entry) {
 }
 
 std::string YamlScalar(const OptionEntry& entry) {
-  const std::string text = FormatValue(entry);
+  std::string text = FormatValue(entry);
   if (!std::holds_alternative<std::string*>(entry.value)) return text;
   std::string quoted = "\"";
   for (const char c : text) {
