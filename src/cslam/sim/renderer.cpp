@@ -5,6 +5,7 @@
 #include "cslam/util/check.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>

@@ -179,6 +179,7 @@ class Study {
     }
     lighting.lights.push_back({{0.05, 1.65, 0.95}, {0.0, 1.3, 0.0}, {0.0, 0.0, 1.25}, 3.0});
     lighting.ambient = 0.32;
+    lighting.exposure = 2.4;
     return lighting;
   }
 

@@ -5,6 +5,7 @@
 #include "cslam/util/check.h"
 #include "cslam/util/random.h"
 
+#include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
