@@ -17,10 +17,10 @@ class OptionList;
 struct BaObservation {
   int pose = 0;
   int point = 0;
-  Eigen::Vector2d uv_px;               // undistorted
-  double disparity_px = -1.0;          // fx * baseline / z; negative: no depth reading
-  double information_px = 1.0;         // 1 / sigma^2 of u and v
-  double information_disparity = 1.0;  // 1 / sigma^2 of the disparity
+  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();  // undistorted
+  double disparity_px = -1.0;                       // fx * baseline / z; negative: no depth reading
+  double information_px = 1.0;                      // 1 / sigma^2 of u and v
+  double information_disparity = 1.0;               // 1 / sigma^2 of the disparity
 };
 
 // A bundle adjustment as plain arrays: no map, no ids.
@@ -48,14 +48,16 @@ struct BaResult {
   std::vector<Se3> T_world_camera;  // fixed ones unchanged
   std::vector<Eigen::Vector3d> p_world;
   std::vector<std::uint8_t> is_outlier;  // one per observation, judged at the solution
-  double initial_cost = 0.0;             // robust, over all observations
-  double final_cost = 0.0;               // over the observations kept
-  int iterations = 0;                    // over both rounds
-  bool was_stopped = false;              // should_stop said so; the arrays hold the best so far
+  double initial_cost = 0.0;  // half the sum of chi2, robust, over all that can be judged
+  double final_cost = 0.0;    // half the sum of chi2 over the observations kept
+  int iterations = 0;         // over both rounds
+  bool was_stopped = false;   // should_stop said so; the arrays hold the best so far
 };
 
-// Minimises reprojection and disparity errors over free poses and all points. should_stop is
-// asked between iterations (may be empty). Single-threaded and deterministic.
+// Minimises reprojection and disparity errors over free poses and all points. Poses and points
+// without a usable observation stay where they are; observations that are not finite or lie behind
+// their camera are outliers. should_stop is asked before each iteration (may be empty).
+// Single-threaded and deterministic.
 BaResult AdjustBundle(const BaProblem& problem, const BundleAdjusterOptions& options,
                       const std::function<bool()>& should_stop = {});
 

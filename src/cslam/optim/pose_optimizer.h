@@ -15,8 +15,8 @@ class OptionList;
 
 // One known 3D point seen in the image.
 struct PoseObservation {
-  Eigen::Vector3d p_world;             // metres
-  Eigen::Vector2d uv_px;               // undistorted
+  Eigen::Vector3d p_world = Eigen::Vector3d::Zero();  // metres
+  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();    // undistorted
   double disparity_px = -1.0;          // fx * baseline / z of the depth reading; negative: none
   double information_px = 1.0;         // 1 / sigma^2 of u and v
   double information_disparity = 1.0;  // 1 / sigma^2 of the disparity
