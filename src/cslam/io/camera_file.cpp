@@ -240,19 +240,19 @@ CameraConfig CameraByArgument(const std::string& argument) {
   return config;
 }
 
-CameraConfig CameraOfFolder(const std::filesystem::path& folder) {
+std::optional<CameraConfig> CameraOfFolder(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "camera.yaml";
   std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) {
-    CameraConfig config = ReadCameraFile(file);
-    config.source = "camera.yaml in the folder";
-    return config;
-  }
-  if (std::optional<CameraConfig> preset = PresetByFolderName(folder)) return *preset;
-  throw Error(
-      "no camera known for '{}': it has no camera.yaml and its name tells none; pass --camera FILE "
-      "or one of the presets {}",
-      folder.string(), DescribeCameraPresets());
+  if (!std::filesystem::exists(file, ignored)) return PresetByFolderName(folder);
+  CameraConfig config = ReadCameraFile(file);
+  config.source = "camera.yaml in the folder";
+  return config;
+}
+
+void CheckDepthScale(double units_per_m) {
+  if (units_per_m >= kMinDepthScale && units_per_m <= kMaxDepthScale) return;
+  throw Error("--depth-scale {} is outside {} to {} units per metre", units_per_m, kMinDepthScale,
+              kMaxDepthScale);
 }
 
 }  // namespace
@@ -317,18 +317,26 @@ void WriteCameraFile(const std::filesystem::path& path, const CameraConfig& conf
   WriteFileAtomically(path, FormatCamera(config));
 }
 
-CameraConfig ResolveCamera(const std::filesystem::path& folder, const CameraChoice& choice) {
-  CameraConfig config =
+std::optional<CameraConfig> FindCamera(const std::filesystem::path& folder,
+                                       const CameraChoice& choice) {
+  if (choice.depth_units_per_m) CheckDepthScale(*choice.depth_units_per_m);
+  std::optional<CameraConfig> config =
       choice.camera.empty() ? CameraOfFolder(folder) : CameraByArgument(choice.camera);
-  if (choice.depth_units_per_m) {
-    const double scale = *choice.depth_units_per_m;
-    if (!(scale >= kMinDepthScale && scale <= kMaxDepthScale)) {
-      throw Error("--depth-scale {} is outside {} to {} units per metre", scale, kMinDepthScale,
-                  kMaxDepthScale);
-    }
-    config.depth_units_per_m = scale;
-  }
+  if (config && choice.depth_units_per_m) config->depth_units_per_m = *choice.depth_units_per_m;
   return config;
+}
+
+std::string MissingCameraMessage(const std::filesystem::path& folder) {
+  return fmt::format(
+      "no camera known for '{}': it has no camera.yaml and its name tells none; pass --camera FILE "
+      "or one of the presets {}",
+      folder.string(), DescribeCameraPresets());
+}
+
+CameraConfig ResolveCamera(const std::filesystem::path& folder, const CameraChoice& choice) {
+  std::optional<CameraConfig> config = FindCamera(folder, choice);
+  if (!config) throw Error("{}", MissingCameraMessage(folder));
+  return *std::move(config);
 }
 
 }  // namespace cslam

@@ -44,8 +44,15 @@ struct CameraChoice {
 };
 
 // The camera of the data set in folder: the choice, else its camera.yaml, else the preset that the
-// folder's name (or that of the folder above) speaks of: fr1, freiburg1, ..., bonn. Throws Error
-// that lists the presets when none applies.
+// folder's name (or that of the folder above) speaks of: fr1, freiburg1, ..., bonn; absent when
+// none applies. Throws Error for a choice or a file that is wrong.
+std::optional<CameraConfig> FindCamera(const std::filesystem::path& folder,
+                                       const CameraChoice& choice);
+
+// What to tell the user then: it lists the presets.
+std::string MissingCameraMessage(const std::filesystem::path& folder);
+
+// The same, but not knowing a camera is an Error, too.
 CameraConfig ResolveCamera(const std::filesystem::path& folder, const CameraChoice& choice);
 
 }  // namespace cslam

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/io/tum_dataset.h"
 
-#include "cslam/io/image_codec.h"
+#include "cslam/io/test_sequence.h"
 #include "cslam/util/check.h"
 #include "cslam/util/test_folder.h"
 
@@ -18,48 +18,26 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
+constexpr int kWidth = TestSequence::kWidth;
+constexpr int kHeight = TestSequence::kHeight;
 
-// A sequence of num_frames small images in folder/rgb and folder/depth, with lists and a camera.
 class TumDatasetTest : public testing::Test {
  protected:
-  void SetUp() override { MakeSequence(4); }
-
-  void MakeSequence(int num_frames) {
-    std::filesystem::create_directories(folder_ / "rgb");
-    std::filesystem::create_directories(folder_ / "depth");
-    std::string associations;
-    for (int i = 0; i < num_frames; ++i) {
-      WritePng(Color(i), cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar(10 * i, 20, 30)));
-      WritePng(Depth(i), cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(1500 + i)));
-      associations += fmt::format("{0}.0 rgb/{0}.png {0}.01 depth/{0}.png\n", i);
-    }
-    folder_.Write("associations.txt", associations);
-    folder_.Write("camera.yaml",
-                  fmt::format("width: {}\nheight: {}\nfx: 50\nfy: 50\ncx: 32\ncy: 24\n"
-                              "depth_scale: 1000\n",
-                              kWidth, kHeight));
-  }
-
-  std::filesystem::path Color(int i) const { return folder_ / fmt::format("rgb/{}.png", i); }
-  std::filesystem::path Depth(int i) const { return folder_ / fmt::format("depth/{}.png", i); }
-
   std::string OpenError(const DatasetOptions& options = {}) const {
-    return MessageOf([&] { OpenDataset(folder_.path(), options); });
+    return MessageOf([&] { OpenDataset(sequence_.path(), options); });
   }
 
-  TestFolder folder_;
+  TestSequence sequence_{4};
 };
 
 TEST_F(TumDatasetTest, LoadsGrayColourAndDepthInMetres) {
-  const auto dataset = OpenDataset(folder_.path());
+  const auto dataset = OpenDataset(sequence_.path());
   ASSERT_EQ(dataset->size(), 4U);
   const LoadResult result = dataset->Load(2);
   ASSERT_TRUE(result.frame.has_value()) << result.problem;
   EXPECT_EQ(result.problem, "");
   EXPECT_EQ(result.frame->id, FrameId(2));
-  EXPECT_EQ(result.frame->stamp, Stamp{2'000'000'000});
+  EXPECT_EQ(result.frame->stamp, Stamp{100'000'000});
   EXPECT_EQ(dataset->stamp(2), result.frame->stamp);
   EXPECT_EQ(result.frame->bgr.at<cv::Vec3b>(5, 5), cv::Vec3b(20, 20, 30));
   EXPECT_EQ(result.frame->gray.type(), CV_8UC1);
@@ -71,13 +49,14 @@ TEST_F(TumDatasetTest, LoadsGrayColourAndDepthInMetres) {
 
 TEST_F(TumDatasetTest, PlaysAPartAndKeepsTheIds) {
   const auto dataset =
-      OpenDataset(folder_.path(), {.camera = {}, .from = 1, .frames = 2, .is_strict = false});
+      OpenDataset(sequence_.path(), {.camera = {}, .from = 1, .frames = 2, .is_strict = false});
   ASSERT_EQ(dataset->size(), 2U);
   EXPECT_EQ(dataset->Load(0).frame->id, FrameId(1));
-  EXPECT_EQ(dataset->stamp(1), Stamp{2'000'000'000});
-  EXPECT_EQ(OpenDataset(folder_.path(), {.camera = {}, .from = 3, .frames = 9, .is_strict = false})
-                ->size(),
-            1U);
+  EXPECT_EQ(dataset->stamp(1), Stamp{100'000'000});
+  EXPECT_EQ(
+      OpenDataset(sequence_.path(), {.camera = {}, .from = 3, .frames = 9, .is_strict = false})
+          ->size(),
+      1U);
 }
 
 TEST_F(TumDatasetTest, RefusesAPartWithoutFrames) {
@@ -90,31 +69,34 @@ TEST_F(TumDatasetTest, RefusesAPartWithoutFrames) {
 TEST_F(TumDatasetTest, OverridesTheDepthScale) {
   DatasetOptions options;
   options.camera.depth_units_per_m = 5000.0;
-  EXPECT_EQ(OpenDataset(folder_.path(), options)->Load(0).frame->depth_m.at<float>(0, 0), 0.3F);
+  EXPECT_EQ(OpenDataset(sequence_.path(), options)->Load(0).frame->depth_m.at<float>(0, 0), 0.3F);
 }
 
 TEST_F(TumDatasetTest, SkipsAMissingImageWithItsName) {
-  std::filesystem::remove(Depth(1));
-  const auto dataset = OpenDataset(folder_.path());
+  std::filesystem::remove(sequence_.Depth(1));
+  const auto dataset = OpenDataset(sequence_.path());
   const LoadResult result = dataset->Load(1);
   EXPECT_FALSE(result.frame.has_value());
   EXPECT_EQ(result.fault, FrameFault::kMissing);
-  EXPECT_THAT(result.problem, AllOf(HasSubstr(Depth(1).string()), HasSubstr("does not exist")));
+  EXPECT_THAT(result.problem,
+              AllOf(HasSubstr(sequence_.Depth(1).string()), HasSubstr("does not exist")));
   EXPECT_TRUE(dataset->Load(2).frame.has_value());
 }
 
 TEST_F(TumDatasetTest, SkipsATruncatedImageWithTheReason) {
-  std::filesystem::resize_file(Color(1), std::filesystem::file_size(Color(1)) - 20);
-  const LoadResult result = OpenDataset(folder_.path())->Load(1);
+  std::filesystem::resize_file(sequence_.Color(1),
+                               std::filesystem::file_size(sequence_.Color(1)) - 20);
+  const LoadResult result = OpenDataset(sequence_.path())->Load(1);
   EXPECT_EQ(result.fault, FrameFault::kUnreadable);
-  EXPECT_THAT(result.problem, AllOf(HasSubstr(Color(1).string()), HasSubstr("truncated")));
+  EXPECT_THAT(result.problem,
+              AllOf(HasSubstr(sequence_.Color(1).string()), HasSubstr("truncated")));
 }
 
 TEST_F(TumDatasetTest, SkipsAnImageOfWrongTypeOrSize) {
-  WritePng(Depth(1), cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(9)));
-  WritePng(Depth(2), cv::Mat(kHeight / 2, kWidth, CV_16UC1, cv::Scalar(9)));
-  WritePng(Color(3), cv::Mat(kHeight, kWidth / 2, CV_8UC3, cv::Scalar(9)));
-  const auto dataset = OpenDataset(folder_.path());
+  WritePng(sequence_.Depth(1), cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(9)));
+  sequence_.WriteDepth(2, kWidth, kHeight / 2, 9);
+  sequence_.WriteColor(3, kWidth / 2, kHeight);
+  const auto dataset = OpenDataset(sequence_.path());
   EXPECT_EQ(dataset->Load(1).fault, FrameFault::kUnreadable);
   EXPECT_THAT(dataset->Load(1).problem, HasSubstr("expected 16-bit"));
   EXPECT_EQ(dataset->Load(2).fault, FrameFault::kWrongSize);
@@ -123,17 +105,17 @@ TEST_F(TumDatasetTest, SkipsAnImageOfWrongTypeOrSize) {
 }
 
 TEST_F(TumDatasetTest, StopsAtAnUnreadableFrameWhenStrict) {
-  std::filesystem::remove(Depth(1));
+  std::filesystem::remove(sequence_.Depth(1));
   const auto dataset =
-      OpenDataset(folder_.path(), {.camera = {}, .from = 0, .frames = {}, .is_strict = true});
+      OpenDataset(sequence_.path(), {.camera = {}, .from = 0, .frames = {}, .is_strict = true});
   EXPECT_TRUE(dataset->Load(0).frame.has_value());
   EXPECT_THAT(MessageOf([&] { dataset->Load(1); }),
               AllOf(HasSubstr("frame 1:"), HasSubstr("does not exist"), HasSubstr("--strict")));
 }
 
 TEST_F(TumDatasetTest, LoadsDepthWithoutAnyReading) {
-  WritePng(Depth(1), cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(0)));
-  const LoadResult result = OpenDataset(folder_.path())->Load(1);
+  sequence_.WriteDepth(1, kWidth, kHeight, 0);
+  const LoadResult result = OpenDataset(sequence_.path())->Load(1);
   ASSERT_TRUE(result.frame.has_value());
   EXPECT_EQ(cv::countNonZero(result.frame->depth_m), 0);
 }
@@ -146,23 +128,24 @@ TEST_F(TumDatasetTest, NamesBothSizesWhenTheCameraIsOfAnother) {
 }
 
 TEST_F(TumDatasetTest, RefusesASequenceOfWhichNothingCanBeRead) {
-  std::filesystem::remove_all(folder_ / "depth");
-  EXPECT_THAT(OpenError(),
-              AllOf(HasSubstr("none of the 4 frames can be read"), HasSubstr(Depth(0).string())));
+  std::filesystem::remove_all(sequence_.path() / "depth");
+  EXPECT_THAT(OpenError(), AllOf(HasSubstr("none of the 4 frames can be read"),
+                                 HasSubstr(sequence_.Depth(0).string())));
 }
 
 TEST_F(TumDatasetTest, OpensASequenceWhoseFirstFramesAreBad) {
-  std::filesystem::remove(Color(0));
-  WritePng(Color(1), cv::Mat(kHeight, kWidth / 2, CV_8UC3, cv::Scalar(9)));
-  EXPECT_EQ(OpenDataset(folder_.path())->size(), 4U);
+  std::filesystem::remove(sequence_.Color(0));
+  sequence_.WriteColor(1, kWidth / 2, kHeight);
+  EXPECT_EQ(OpenDataset(sequence_.path())->size(), 4U);
 }
 
 TEST_F(TumDatasetTest, ReportsGroundTruth) {
-  EXPECT_EQ(OpenDataset(folder_.path())->ground_truth(), std::nullopt);
-  folder_.Write("groundtruth_camera.txt", "");
-  EXPECT_EQ(OpenDataset(folder_.path())->ground_truth(), folder_ / "groundtruth_camera.txt");
-  folder_.Write("groundtruth.txt", "");
-  EXPECT_EQ(OpenDataset(folder_.path())->ground_truth(), folder_ / "groundtruth.txt");
+  EXPECT_EQ(OpenDataset(sequence_.path())->ground_truth(), std::nullopt);
+  sequence_.folder().Write("groundtruth_camera.txt", "");
+  EXPECT_EQ(OpenDataset(sequence_.path())->ground_truth(),
+            sequence_.path() / "groundtruth_camera.txt");
+  sequence_.folder().Write("groundtruth.txt", "");
+  EXPECT_EQ(OpenDataset(sequence_.path())->ground_truth(), sequence_.path() / "groundtruth.txt");
 }
 
 TEST(OpenDataset, SaysWhatIsWrongWithAPlaceThatIsNoDataset) {
