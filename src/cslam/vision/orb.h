@@ -11,13 +11,17 @@
 
 namespace cslam {
 
+class OptionList;
+
 struct OrbOptions {
   int num_features = 1000;     // per image, over all levels
   int num_levels = 8;          // pyramid levels
   double scale_factor = 1.2;   // between neighbouring levels
   int fast_threshold = 20;     // grey levels
   int fast_threshold_min = 7;  // tried where a cell has no corner at fast_threshold
+  bool subpixel = true;        // refine positions to fractions of a level's pixel
 };
+void Describe(OptionList& list, OrbOptions& o);
 
 // Scale of each level relative to full resolution: scale_factor^level.
 std::vector<double> LevelScales(const OrbOptions& options);
