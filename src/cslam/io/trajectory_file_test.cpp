@@ -93,7 +93,7 @@ TEST(ReadTrajectory, NamesThePathWhenItCannotBeRead) {
   };
   EXPECT_EQ(message("/no/such/file.txt"),
             "cannot read trajectory '/no/such/file.txt': No such file or directory");
-  EXPECT_THAT(message(testing::TempDir()), HasSubstr("it is a folder"));
+  EXPECT_THAT(message(testing::TempDir()), HasSubstr("directory"));
 }
 
 TEST(FormatTrajectory, WritesSixDecimalsOfTimeAndOneSpellingOfARotation) {
