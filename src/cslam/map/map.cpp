@@ -37,6 +37,18 @@ MapView Map::Snapshot() {
   return copy;
 }
 
+void Map::Clear() {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    MapPoint& point = points_.Edit(i);
+    point.state = PointState::kErased;
+    point.observations = {};
+  }
+  for (std::size_t i = 0; i < keyframes_.size(); ++i)
+    keyframes_.Edit(i) = Keyframe{};
+  num_keyframes_ = 0;
+  num_points_ = 0;
+}
+
 MapPoint& Map::EditPoint(PointId id) {
   CSLAM_CHECK(FindPoint(id) != nullptr, "point {}", id.value());
   return points_.Edit(id.index());
@@ -200,33 +212,41 @@ void Map::AddSightings(PointId point, int expected, int found) {
   landmark.times_found += found;
 }
 
+const Keypoint& Map::KeypointOf(const PointObservation& o) const {
+  return FindKeyframe(o.keyframe)->data->features.keypoints[static_cast<std::size_t>(o.keypoint)];
+}
+
 void Map::RefreshAppearance(PointId point) {
   MapPoint& landmark = EditPoint(point);
   if (landmark.observations.empty()) return;
   std::vector<Descriptor> descriptors;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  descriptors.reserve(landmark.observations.size());
   for (const PointObservation& o : landmark.observations) {
-    const Keyframe& observer = *FindKeyframe(o.keyframe);
-    descriptors.push_back(
-        observer.data->features.descriptors[static_cast<std::size_t>(o.keypoint)]);
-    normal += (landmark.p_world - observer.T_world_camera.translation).normalized();
+    const FrameFeatures& features = FindKeyframe(o.keyframe)->data->features;
+    descriptors.push_back(features.descriptors[static_cast<std::size_t>(o.keypoint)]);
   }
   const std::size_t medoid = MedoidIndex(descriptors);
   landmark.descriptor = descriptors[medoid];
+  landmark.angle_rad = KeypointOf(landmark.observations[medoid]).angle_rad;
+  RefreshGeometry(point);
+}
+
+void Map::RefreshGeometry(PointId point) {
+  MapPoint& landmark = EditPoint(point);
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const PointObservation& o : landmark.observations) {
+    const Eigen::Vector3d& center = FindKeyframe(o.keyframe)->T_world_camera.translation;
+    normal += (landmark.p_world - center).normalized();
+  }
   landmark.normal = normal.normalized().cast<float>();
 
-  const auto keypoint_of = [&](const PointObservation& o) -> const Keypoint& {
-    return FindKeyframe(o.keyframe)->data->features.keypoints[static_cast<std::size_t>(o.keypoint)];
-  };
-  landmark.angle_rad = keypoint_of(landmark.observations[medoid]).angle_rad;
-  const auto reference =
+  const auto anchor =
       std::find_if(landmark.observations.begin(), landmark.observations.end(),
                    [&](const PointObservation& o) { return o.keyframe == landmark.reference; });
-  const PointObservation& anchor =
-      reference != landmark.observations.end() ? *reference : landmark.observations.front();
+  if (anchor == landmark.observations.end()) return;
   const double distance =
-      (landmark.p_world - FindKeyframe(anchor.keyframe)->T_world_camera.translation).norm();
-  const double scale = level_scales_[static_cast<std::size_t>(keypoint_of(anchor).octave)];
+      (landmark.p_world - FindKeyframe(anchor->keyframe)->T_world_camera.translation).norm();
+  const double scale = level_scales_[static_cast<std::size_t>(KeypointOf(*anchor).octave)];
   landmark.max_distance_m = static_cast<float>(distance * scale);
   landmark.min_distance_m = static_cast<float>(distance * scale / level_scales_.back());
 }

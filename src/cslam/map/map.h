@@ -18,6 +18,9 @@ class Map : public MapView {
 
   const std::vector<double>& level_scales() const { return level_scales_; }
 
+  // Forgets every keyframe and point; their ids stay taken.
+  void Clear();
+
   // An immutable copy of the current revision; cost grows with the number of chunks only.
   MapView Snapshot();
 
@@ -50,8 +53,11 @@ class Map : public MapView {
   void SetParent(KeyframeId keyframe, KeyframeId parent);
   void AddSightings(PointId point, int expected, int found);
 
-  // Recomputes descriptor, normal and distance limits from the point's observations.
+  // Recomputes the descriptor (the medoid of those observed), and what RefreshGeometry() does.
   void RefreshAppearance(PointId point);
+
+  // Recomputes normal and distance limits; enough after positions or poses have changed.
+  void RefreshGeometry(PointId point);
 
   // Of all maps: ids resolve, observations symmetric, weights recounted, spanning tree connected
   // and acyclic, nothing NaN. Empty when all hold; otherwise the first violation.
@@ -60,6 +66,7 @@ class Map : public MapView {
  private:
   MapPoint& EditPoint(PointId id);
   Keyframe& EditKeyframe(KeyframeId id);
+  const Keypoint& KeypointOf(const PointObservation& observation) const;
   void AddSharedPoint(KeyframeId a, KeyframeId b, int change);
 
   std::vector<double> level_scales_;

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/mapping/local_ba.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace cslam {
+namespace {
+
+// Which keyframes move, which hold still, and which points they see.
+struct Selection {
+  std::vector<KeyframeId> keyframes;  // the free ones first
+  std::size_t num_free = 0;
+  std::vector<PointId> points;
+};
+
+std::vector<PointId> PointsSeenBy(const Map& map, const std::vector<KeyframeId>& keyframes) {
+  std::vector<std::uint8_t> is_member(map.num_point_ids(), 0);
+  std::vector<PointId> points;
+  for (const KeyframeId id : keyframes) {
+    for (const PointId point : map.FindKeyframe(id)->points) {
+      if (!point.valid() || is_member[point.index()] != 0) continue;
+      if (!IsUsable(*map.FindPoint(point))) continue;
+      is_member[point.index()] = 1;
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+Selection Select(const Map& map, KeyframeId center, int min_shared_points,
+                 const LocalBaOptions& options) {
+  Selection selection;
+  selection.keyframes.push_back(center);
+  const auto neighbours = map.Neighbours(center, min_shared_points,
+                                         static_cast<std::size_t>(options.max_keyframes - 1));
+  for (const CovisibleKeyframe& n : neighbours)
+    selection.keyframes.push_back(n.id);
+  selection.num_free = selection.keyframes.size();
+  selection.points = PointsSeenBy(map, selection.keyframes);
+
+  std::map<KeyframeId, int> others;
+  for (const PointId id : selection.points) {
+    for (const PointObservation& o : map.FindPoint(id)->observations)
+      ++others[o.keyframe];
+  }
+  for (const KeyframeId id : selection.keyframes)
+    others.erase(id);
+  std::vector<CovisibleKeyframe> fixed;
+  for (const auto& [id, count] : others)
+    fixed.push_back({id, count});
+  std::stable_sort(fixed.begin(), fixed.end(),
+                   [](const auto& a, const auto& b) { return a.shared_points > b.shared_points; });
+  const auto max_fixed = static_cast<std::size_t>(options.max_fixed_keyframes);
+  if (fixed.size() > max_fixed) fixed.resize(max_fixed);
+  for (const CovisibleKeyframe& f : fixed)
+    selection.keyframes.push_back(f.id);
+  return selection;
+}
+
+// Something must hold still: the map's first keyframe if it takes part, else the fixed
+// observers, else the oldest of the free ones.
+void FixGauge(const Map& map, const Selection& selection, BaProblem& problem) {
+  problem.pose_is_fixed.assign(selection.keyframes.size(), 0);
+  std::size_t oldest = 0;
+  for (std::size_t i = 0; i < selection.keyframes.size(); ++i) {
+    const bool is_root = !map.FindKeyframe(selection.keyframes[i])->parent.valid();
+    if (i >= selection.num_free || is_root) problem.pose_is_fixed[i] = 1;
+    if (i < selection.num_free && selection.keyframes[i] < selection.keyframes[oldest]) oldest = i;
+  }
+  const bool has_fixed = std::count(problem.pose_is_fixed.begin(), problem.pose_is_fixed.end(), 1);
+  if (!has_fixed) problem.pose_is_fixed[oldest] = 1;
+}
+
+BaProblem MakeProblem(const Map& map, const Selection& selection, const Camera& camera,
+                      const DepthOptions& depth, const MeasurementModel& model) {
+  BaProblem problem;
+  problem.camera = camera;
+  problem.baseline_m = depth.baseline_m;
+  std::vector<int> pose_of(map.num_keyframe_ids(), -1);
+  for (std::size_t i = 0; i < selection.keyframes.size(); ++i) {
+    pose_of[selection.keyframes[i].index()] = static_cast<int>(i);
+    problem.T_world_camera.push_back(map.FindKeyframe(selection.keyframes[i])->T_world_camera);
+  }
+  FixGauge(map, selection, problem);
+  for (const PointId id : selection.points) {
+    const MapPoint& point = *map.FindPoint(id);
+    const int index = static_cast<int>(problem.p_world.size());
+    problem.p_world.push_back(point.p_world);
+    for (const PointObservation& o : point.observations) {
+      const int pose = pose_of[o.keyframe.index()];
+      if (pose < 0) continue;
+      const Keyframe& keyframe = *map.FindKeyframe(o.keyframe);
+      const Keypoint& keypoint =
+          keyframe.data->features.keypoints[static_cast<std::size_t>(o.keypoint)];
+      problem.observations.push_back(
+          {.pose = pose,
+           .point = index,
+           .uv_px = keypoint.uv_px.cast<double>(),
+           .disparity_px = static_cast<double>(keypoint.disparity_px),
+           .information_px = model.information_px(keypoint.octave),
+           .information_disparity = model.information_disparity(keypoint.octave)});
+    }
+  }
+  return problem;
+}
+
+}  // namespace
+
+LocalBaReport AdjustLocally(Map& map, KeyframeId center, const Camera& camera,
+                            const DepthOptions& depth, const MeasurementModel& model,
+                            int min_shared_points, const LocalBaOptions& options,
+                            const std::function<bool()>& should_stop) {
+  const Selection selection = Select(map, center, min_shared_points, options);
+  const BaProblem problem = MakeProblem(map, selection, camera, depth, model);
+  const BaResult result = AdjustBundle(problem, options.solver, should_stop);
+
+  for (std::size_t i = 0; i < selection.num_free; ++i) {
+    if (problem.pose_is_fixed[i] == 0)
+      map.SetPose(selection.keyframes[i], result.T_world_camera[i]);
+  }
+  LocalBaReport report;
+  for (std::size_t i = 0; i < problem.observations.size(); ++i) {
+    if (result.is_outlier[i] == 0) continue;
+    const BaObservation& o = problem.observations[i];
+    map.RemoveObservation(selection.points[static_cast<std::size_t>(o.point)],
+                          selection.keyframes[static_cast<std::size_t>(o.pose)]);
+    ++report.outliers_removed;
+  }
+  for (std::size_t i = 0; i < selection.points.size(); ++i) {
+    if (map.FindPoint(selection.points[i]) == nullptr) continue;  // lost its last observation
+    map.SetPosition(selection.points[i], result.p_world[i]);
+    map.RefreshGeometry(selection.points[i]);
+  }
+  report.num_keyframes = static_cast<int>(selection.num_free);
+  report.num_points = static_cast<int>(selection.points.size());
+  report.iterations = result.iterations;
+  report.was_stopped = result.was_stopped;
+  return report;
+}
+
+}  // namespace cslam

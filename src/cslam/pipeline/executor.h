@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/mapping/mapper.h"
+#include "cslam/pipeline/slam.h"
+#include "cslam/tracking/tracker.h"
+
+namespace cslam {
+
+// Runs the stages. Both executors run the same Tracker and Mapper on the same messages.
+class Slam::Executor {
+ public:
+  virtual ~Executor() = default;
+  virtual TrackingResult Track(std::shared_ptr<const RgbdFrame> frame) = 0;
+  virtual void Feed(std::shared_ptr<const RgbdFrame> frame) = 0;
+  virtual void Reset() = 0;
+  virtual RunResult Finish() = 0;
+  virtual std::shared_ptr<const MapSnapshot> map() const = 0;
+};
+
+using Sinks = std::vector<std::shared_ptr<OutputSink>>;
+
+class Slam::InlineExecutor : public Slam::Executor {
+ public:
+  InlineExecutor(const Camera& camera, const SlamOptions& options, Sinks sinks);
+  TrackingResult Track(std::shared_ptr<const RgbdFrame> frame) override;
+  void Feed(std::shared_ptr<const RgbdFrame> frame) override { Track(std::move(frame)); }
+  void Reset() override;
+  RunResult Finish() override;
+  std::shared_ptr<const MapSnapshot> map() const override { return snapshot_; }
+
+ private:
+  void Publish(const MapUpdate& update);
+
+  Tracker tracker_;
+  Mapper mapper_;
+  Sinks sinks_;
+  std::shared_ptr<const MapSnapshot> snapshot_;
+  std::vector<FrameRecord> records_;
+};
+
+// All threads of SLAM:
+//
+//   caller --frames--> tracker --proposals--> mapper
+//                        |  ^                   |
+//                        |  +---- Latest<> -----+
+//                        +-------events---------+--> sinks
+//
+// Blocking edges go forward only; snapshots come back through a slot that never blocks.
+class Slam::ThreadedExecutor : public Slam::Executor {
+ public:
+  ThreadedExecutor(const Camera& camera, const SlamOptions& options, Sinks sinks,
+                   FeedPolicy feed_policy);
+  ~ThreadedExecutor() override;
+  TrackingResult Track(std::shared_ptr<const RgbdFrame> frame) override;
+  void Feed(std::shared_ptr<const RgbdFrame> frame) override;
+  void Reset() override;
+  RunResult Finish() override;
+  std::shared_ptr<const MapSnapshot> map() const override;
+
+ private:
+  struct Shared;
+  std::unique_ptr<Shared> shared_;
+};
+
+}  // namespace cslam

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/mapping/mapper_options.h"
+#include "cslam/tracking/tracker_options.h"
+
+namespace cslam {
+
+class OptionList;
+
+struct PipelineOptions {
+  int frame_queue = 2;
+  int max_proposals_ahead = 1;
+  int mapper_nice = 5;
+  int library_threads = 1;
+};
+void Describe(OptionList& list, PipelineOptions& options);
+
+// Every option of SLAM. The keys are listed by `changing-slam config`.
+struct SlamOptions {
+  TrackerOptions tracking;
+  MapperOptions mapping;
+  PipelineOptions pipeline;
+};
+void Describe(OptionList& list, SlamOptions& options);
+
+}  // namespace cslam

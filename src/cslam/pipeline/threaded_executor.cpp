@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/pipeline/executor.h"
+#include "cslam/util/channel.h"
+#include "cslam/util/check.h"
+#include "cslam/util/gate.h"
+#include "cslam/util/latest.h"
+
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <exception>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <variant>
+
+namespace cslam {
+namespace {
+
+struct ResetRequest {};
+
+// A frame on its way to the tracker; the promise is set when somebody waits for the pose.
+struct FrameMessage {
+  std::shared_ptr<const RgbdFrame> frame;
+  std::shared_ptr<std::promise<TrackingResult>> answer;
+};
+
+using TrackerInput = std::variant<FrameMessage, ResetRequest>;
+using MapperInput = std::variant<KeyframeProposal, ResetRequest>;
+using Event = std::variant<TrackingResult, MapUpdate, ResetRequest>;
+
+template <typename... Visitors>
+struct Overload : Visitors... {
+  using Visitors::operator()...;
+};
+
+constexpr std::size_t kUnbounded = static_cast<std::size_t>(-1);
+
+// On Linux priorities belong to threads. Failure changes nothing but speed.
+void LowerPriorityOfThisThread(int nice) {
+  const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
+  static_cast<void>(::setpriority(PRIO_PROCESS, thread, nice));
+}
+
+}  // namespace
+
+struct Slam::ThreadedExecutor::Shared {
+  Shared(const Camera& camera, const SlamOptions& options, Sinks all_sinks, FeedPolicy policy)
+      : feed_policy(policy),
+        max_proposals_ahead(static_cast<std::size_t>(options.pipeline.max_proposals_ahead)),
+        mapper_nice(options.pipeline.mapper_nice),
+        sinks(std::move(all_sinks)),
+        tracker(camera, options.tracking),
+        mapper(camera, options.tracking.orb, options.tracking.depth, options.mapping),
+        frames(static_cast<std::size_t>(options.pipeline.frame_queue),
+               policy == FeedPolicy::kWait ? OnFull::kBlock : OnFull::kDropOldest),
+        proposals(kUnbounded),  // bounded by the keyframe policy's max_in_flight
+        events(kUnbounded) {
+    tracker_thread = std::thread([this] { Guard([this] { RunTracker(); }); });
+    mapper_thread = std::thread([this] { Guard([this] { RunMapper(); }); });
+    sink_thread = std::thread([this] { Guard([this] { RunSinks(); }); });
+  }
+
+  ~Shared() {
+    CloseAll();
+    Join();
+  }
+
+  void RunTracker();
+  void RunMapper();
+  void RunSinks();
+  void Publish(const MapUpdate& update);
+  void Guard(const std::function<void()>& run);
+  void RethrowFailure();
+  void CloseAll();
+  void Join();
+
+  const FeedPolicy feed_policy;
+  const std::size_t max_proposals_ahead;
+  const int mapper_nice;
+  const Sinks sinks;
+
+  Tracker tracker;                   // owned by the tracker thread
+  Mapper mapper;                     // owned by the mapper thread
+  std::vector<FrameRecord> records;  // owned by the sink thread
+
+  Channel<TrackerInput> frames;
+  Channel<MapperInput> proposals;
+  Channel<Event> events;
+  Latest<MapSnapshot> latest;
+  Gate in_flight;  // proposals sent and not refined yet
+
+  std::mutex failure_mutex;
+  std::exception_ptr failure;
+
+  std::thread tracker_thread;
+  std::thread mapper_thread;
+  std::thread sink_thread;
+};
+
+void Slam::ThreadedExecutor::Shared::RunTracker() {
+  while (auto input = frames.Pop()) {
+    if (std::holds_alternative<ResetRequest>(*input)) {
+      tracker.Reset();
+      in_flight.Enter();
+      proposals.Push(ResetRequest{});
+      events.Push(ResetRequest{});
+      continue;
+    }
+    FrameMessage& message = std::get<FrameMessage>(*input);
+    TrackerOutput output = tracker.Process(*message.frame, latest.Get());
+    if (output.proposal) {
+      in_flight.Enter();
+      proposals.Push(std::move(*output.proposal));
+    }
+    if (message.answer) message.answer->set_value(output.result);
+    events.Push(std::move(output.result));
+  }
+  proposals.Close();
+}
+
+void Slam::ThreadedExecutor::Shared::RunMapper() {
+  LowerPriorityOfThisThread(mapper_nice);
+  while (auto input = proposals.Pop()) {
+    if (std::holds_alternative<ResetRequest>(*input)) {
+      mapper.Reset();
+      latest.Publish(nullptr);
+    } else {
+      const MapUpdate inserted = mapper.Insert(std::get<KeyframeProposal>(*input));
+      Publish(inserted);
+      if (inserted.step == MapUpdate::Step::kInserted) {
+        Publish(mapper.Refine([this] { return proposals.HasWaiting(); }));
+      }
+    }
+    in_flight.Leave();
+  }
+  events.Close();
+}
+
+void Slam::ThreadedExecutor::Shared::Publish(const MapUpdate& update) {
+  latest.Publish(update.snapshot);
+  events.Push(update);
+}
+
+void Slam::ThreadedExecutor::Shared::RunSinks() {
+  while (auto event = events.Pop()) {
+    std::visit(Overload{[this](const TrackingResult& result) {
+                          records.push_back(MakeRecord(result));
+                          for (const auto& sink : sinks)
+                            sink->OnFrame(result);
+                        },
+                        [this](const MapUpdate& update) {
+                          for (const auto& sink : sinks)
+                            sink->OnMap(update);
+                        },
+                        [this](const ResetRequest&) { records.clear(); }},
+               *event);
+  }
+}
+
+// The first exception of any stage is kept for the caller; everything then winds down.
+void Slam::ThreadedExecutor::Shared::Guard(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (...) {
+    {
+      const std::scoped_lock lock(failure_mutex);
+      if (!failure) failure = std::current_exception();
+    }
+    CloseAll();
+  }
+}
+
+void Slam::ThreadedExecutor::Shared::RethrowFailure() {
+  const std::scoped_lock lock(failure_mutex);
+  if (failure) std::rethrow_exception(failure);
+}
+
+void Slam::ThreadedExecutor::Shared::CloseAll() {
+  frames.Close();
+  proposals.Close();
+  events.Close();
+  in_flight.Open();
+}
+
+void Slam::ThreadedExecutor::Shared::Join() {
+  for (std::thread* thread : {&tracker_thread, &mapper_thread, &sink_thread}) {
+    if (thread->joinable()) thread->join();
+  }
+}
+
+Slam::ThreadedExecutor::ThreadedExecutor(const Camera& camera, const SlamOptions& options,
+                                         Sinks sinks, FeedPolicy feed_policy)
+    : shared_(std::make_unique<Shared>(camera, options, std::move(sinks), feed_policy)) {}
+
+Slam::ThreadedExecutor::~ThreadedExecutor() = default;
+
+TrackingResult Slam::ThreadedExecutor::Track(std::shared_ptr<const RgbdFrame> frame) {
+  auto promise = std::make_shared<std::promise<TrackingResult>>();
+  auto answer = promise->get_future();
+  shared_->frames.Push(FrameMessage{std::move(frame), std::move(promise)});
+  try {
+    return answer.get();
+  } catch (const std::future_error&) {  // the tracker ended without an answer
+    shared_->CloseAll();
+    shared_->Join();
+    shared_->RethrowFailure();
+    throw;
+  }
+}
+
+void Slam::ThreadedExecutor::Feed(std::shared_ptr<const RgbdFrame> frame) {
+  if (shared_->feed_policy == FeedPolicy::kWait) {
+    shared_->in_flight.WaitUntilAtMost(shared_->max_proposals_ahead);
+  }
+  shared_->frames.Push(FrameMessage{std::move(frame), nullptr});
+  shared_->RethrowFailure();
+}
+
+void Slam::ThreadedExecutor::Reset() {
+  shared_->frames.PushFeedback(ResetRequest{});
+  shared_->RethrowFailure();
+}
+
+RunResult Slam::ThreadedExecutor::Finish() {
+  // Closing the first channel drains the line: each stage closes the next when it is done.
+  shared_->frames.Close();
+  shared_->Join();
+  shared_->RethrowFailure();
+  RunResult result;
+  result.frames = std::move(shared_->records);
+  result.snapshot = shared_->latest.Get();
+  if (!result.snapshot) result.snapshot = std::make_shared<const MapSnapshot>();
+  result.frames_dropped = shared_->frames.stats().dropped;
+  for (const auto& sink : shared_->sinks)
+    sink->OnFinish(result);
+  return result;
+}
+
+std::shared_ptr<const MapSnapshot> Slam::ThreadedExecutor::map() const {
+  return shared_->latest.Get();
+}
+
+}  // namespace cslam
