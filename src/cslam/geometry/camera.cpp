@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/geometry/camera.h"
 
+#include <Eigen/LU>
 #include <fmt/core.h>
 
 #include <algorithm>
