@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace cslam {
@@ -252,14 +253,14 @@ std::string Summary(const TrajectoryPlot& plot) {
   if (plot.estimate.empty()) return "no poses";
   const double duration_s = SecondsBetween(plot.estimate.back().stamp, plot.estimate.front().stamp);
   const Alignment alignment = plot.ate ? plot.ate->alignment : Alignment{};
-  const std::string path = fmt::format("{:.1f} s, path {:.2f} m", duration_s,
-                                       alignment.scale * PathLength(plot.estimate));
-  if (!plot.ate) return fmt::format("{} poses, {}", plot.estimate.size(), path);
-  return fmt::format("ATE RMSE {}, largest error {}; {}; {} of {} poses matched, {}",
+  const std::string extent =
+      fmt::format("{:.1f} s, {:.2f} m", duration_s, alignment.scale * PathLength(plot.estimate));
+  if (!plot.ate) return fmt::format("{} poses, {}", plot.estimate.size(), extent);
+  return fmt::format("ATE RMSE {}, max {} ({}); {} of {} poses matched; {}",
                      FormatLength(plot.ate->statistics_m.rmse),
                      FormatLength(plot.ate->statistics_m.max),
                      Describe(plot.ate->options.alignment), plot.ate->association.pairs.size(),
-                     plot.ate->association.num_estimate, path);
+                     plot.ate->association.num_estimate, extent);
 }
 
 void DrawErrorScale(SvgImage& svg, double left_px, double y_px, double max_error_m) {
