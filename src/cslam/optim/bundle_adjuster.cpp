@@ -302,6 +302,7 @@ ceres::Solver::Options Adjustment::SolverOptions() const {
 }
 
 void Adjustment::SolveRound(int max_iterations, StopCallback& stop) {
+  if (max_iterations <= 0) return;
   ceres::Solver::Options options = SolverOptions();
   options.max_num_iterations = max_iterations;
   options.callbacks.push_back(&stop);

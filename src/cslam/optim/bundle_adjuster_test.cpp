@@ -233,8 +233,12 @@ TEST(AdjustBundle, RepeatsBitForBit) {
 
 TEST(AdjustBundle, SolvesWithTheSparseSolverWhenThereAreManyPoses) {
   const BaScene scene = MakeBaScene({.num_free = 70, .num_fixed = 2, .num_points = 300}, 0.0, 17);
-  const BaResult result = AdjustBundle(Perturbed(scene.problem, 0.003, 0.005, 17), kExact);
+  const BaProblem problem = Perturbed(scene.problem, 0.003, 0.005, 17);
+  const BaResult result = AdjustBundle(problem, kExact);
   EXPECT_LT(WorstPoseError(result, scene), 1e-5);
+  const BaResult again = AdjustBundle(problem, kExact);
+  EXPECT_EQ(result.p_world, again.p_world);
+  ExpectSame(result.T_world_camera[50], again.T_world_camera[50]);
 }
 
 TEST(AdjustBundle, ThrowsWhenAnIndexIsOutOfRange) {

@@ -14,22 +14,6 @@ PixelDisparityModel::PixelDisparityModel(const Camera& camera, double baseline_m
       cy_(camera.cy),
       fx_baseline_(camera.fx * baseline_m) {}
 
-Eigen::Vector3d PixelDisparityModel::Predict(const Eigen::Vector3d& p_camera) const {
-  const double inverse_z = 1.0 / p_camera.z();
-  return {fx_ * p_camera.x() * inverse_z + cx_, fy_ * p_camera.y() * inverse_z + cy_,
-          fx_baseline_ * inverse_z};
-}
-
-Eigen::Matrix3d PixelDisparityModel::Jacobian(const Eigen::Vector3d& p_camera) const {
-  const double inverse_z = 1.0 / p_camera.z();
-  const double inverse_z2 = inverse_z * inverse_z;
-  Eigen::Matrix3d jacobian;
-  jacobian << fx_ * inverse_z, 0.0, -fx_ * p_camera.x() * inverse_z2,  //
-      0.0, fy_ * inverse_z, -fy_ * p_camera.y() * inverse_z2,          //
-      0.0, 0.0, -fx_baseline_ * inverse_z2;
-  return jacobian;
-}
-
 Measurement MakeMeasurement(const Eigen::Vector2d& uv_px, double disparity_px,
                             double information_px, double information_disparity) {
   Measurement m;

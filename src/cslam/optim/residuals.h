@@ -18,10 +18,22 @@ class PixelDisparityModel {
   PixelDisparityModel(const Camera& camera, double baseline_m);
 
   // The caller has checked p_camera.z() >= kMinProjectionDepth.
-  Eigen::Vector3d Predict(const Eigen::Vector3d& p_camera) const;
+  Eigen::Vector3d Predict(const Eigen::Vector3d& p_camera) const {
+    const double inverse_z = 1.0 / p_camera.z();
+    return {fx_ * p_camera.x() * inverse_z + cx_, fy_ * p_camera.y() * inverse_z + cy_,
+            fx_baseline_ * inverse_z};
+  }
 
   // 3x3, rows [u, v, disparity], columns p_camera.
-  Eigen::Matrix3d Jacobian(const Eigen::Vector3d& p_camera) const;
+  Eigen::Matrix3d Jacobian(const Eigen::Vector3d& p_camera) const {
+    const double inverse_z = 1.0 / p_camera.z();
+    const double inverse_z2 = inverse_z * inverse_z;
+    Eigen::Matrix3d jacobian;
+    jacobian << fx_ * inverse_z, 0.0, -fx_ * p_camera.x() * inverse_z2,  //
+        0.0, fy_ * inverse_z, -fy_ * p_camera.y() * inverse_z2,          //
+        0.0, 0.0, -fx_baseline_ * inverse_z2;
+    return jacobian;
+  }
 
   double fx() const { return fx_; }
   double fy() const { return fy_; }
