@@ -14,10 +14,12 @@
 namespace cslam {
 namespace {
 
+// A part of the image, given by shares of its size; at least one texel.
 cv::Rect Inner(cv::Size size, double left, double top, double right, double bottom) {
   const auto at = [](double share, int length) { return static_cast<int>(share * length); };
-  return {cv::Point(at(left, size.width), at(top, size.height)),
-          cv::Point(at(right, size.width), at(bottom, size.height))};
+  const cv::Point corner(at(left, size.width), at(top, size.height));
+  return {corner.x, corner.y, std::max(1, at(right, size.width) - corner.x),
+          std::max(1, at(bottom, size.height) - corner.y)};
 }
 
 cv::Rect RandomRect(cv::Size size, double min_share, double max_share, Rng& rng) {

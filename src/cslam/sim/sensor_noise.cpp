@@ -77,18 +77,29 @@ cv::Mat DepthSteps(const cv::Mat& depth_m, double step) {
   return steps;
 }
 
-// Squared cosine between the line of sight and the surface normal, from depth differences.
-float SquaredCosine(const cv::Mat& depth_m, const Camera& camera, int u, int v) {
-  if (u + 1 >= depth_m.cols || v + 1 >= depth_m.rows) return 1.0F;
-  const auto point = [&](int x, int y) {
-    return Unproject(camera, {static_cast<double>(x), static_cast<double>(y)},
-                     static_cast<double>(depth_m.at<float>(y, x)));
+// The neighbour at p + step or p - step, whichever is nearer in depth: that across a depth step
+// belongs to another surface.
+cv::Point SameSurface(const cv::Mat& depth_m, cv::Point p, cv::Point step) {
+  const auto jump = [&](cv::Point q) {
+    const bool inside = q.x >= 0 && q.y >= 0 && q.x < depth_m.cols && q.y < depth_m.rows;
+    return inside ? std::abs(depth_m.at<float>(q) - depth_m.at<float>(p)) : 1e9F;
   };
-  const Eigen::Vector3d p = point(u, v);
-  const Eigen::Vector3d normal = (point(u + 1, v) - p).cross(point(u, v + 1) - p);
+  return jump(p + step) < jump(p - step) ? p + step : p - step;
+}
+
+// Squared cosine between the line of sight and the surface normal, from depth differences.
+double SquaredCosine(const cv::Mat& depth_m, const Camera& camera, cv::Point pixel) {
+  const auto point = [&](cv::Point p) {
+    return Unproject(camera, {static_cast<double>(p.x), static_cast<double>(p.y)},
+                     static_cast<double>(depth_m.at<float>(p)));
+  };
+  const Eigen::Vector3d p = point(pixel);
+  const Eigen::Vector3d across = point(SameSurface(depth_m, pixel, {1, 0})) - p;
+  const Eigen::Vector3d down = point(SameSurface(depth_m, pixel, {0, 1})) - p;
+  const Eigen::Vector3d normal = across.cross(down);
   const double dot = normal.dot(p);
   const double norms = normal.squaredNorm() * p.squaredNorm();
-  return norms > 0.0 ? static_cast<float>(dot * dot / norms) : 1.0F;
+  return norms > 0.0 ? dot * dot / norms : 1.0;
 }
 
 // Which pixels of a row the projector, to the right of the camera, lights: scanning from the
@@ -120,7 +131,7 @@ cv::Mat AddDepthNoise(const cv::Mat& depth_m, const Camera& camera,
   const cv::Mat steps = DepthSteps(depth_m, options.edge_step);
   const double focal_baseline = camera.fx * options.baseline_m;
   const double disparity_scale = focal_baseline * width_ratio;
-  const auto min_cosine2 = static_cast<float>(options.grazing_cosine * options.grazing_cosine);
+  const double min_cosine2 = options.grazing_cosine * options.grazing_cosine;
   cv::Mat noisy = cv::Mat::zeros(depth_m.size(), CV_32FC1);
   for (int v = 0; v < depth_m.rows; ++v) {
     const auto* row_m = depth_m.ptr<float>(v);
@@ -135,7 +146,7 @@ cv::Mat AddDepthNoise(const cv::Mat& depth_m, const Camera& camera,
       if (steps.at<unsigned char>(v, u) != 0 && dropout_rng.Uniform() < options.edge_dropout) {
         continue;
       }
-      if (SquaredCosine(depth_m, camera, u, v) < min_cosine2) continue;
+      if (SquaredCosine(depth_m, camera, {u, v}) < min_cosine2) continue;
       const double measured_px = disparity_scale / z + error_px;
       const double quantised_px =
           options.quantum_px > 0.0
