@@ -78,10 +78,8 @@ int RunCommandLine(int argc, const char* const* argv) {
   AddDatasetCommand(root, exit_code);
 #endif
   AddConfigCommand(root, exit_code);
-  root.footer(
-      "Examples:\n"
-      "  changing-slam config\n"
-      "  changing-slam config --help");
+  AddExamples(root, {"run ~/data/rgbd_dataset_freiburg1_desk --out runs/desk",
+                     "eval ate ~/data/rgbd_dataset_freiburg1_desk runs/desk", "run --help"});
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,27 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the real program and looks at exit codes, stdout and stderr.
+"""The program as a whole: help, usage errors, version and the config command."""
 
-Usage: cli_test.py --binary path/to/changing-slam [unittest arguments]
-"""
-
-import argparse
 import os
-import pathlib
 import re
 import shlex
-import subprocess
-import sys
-import tempfile
-import unittest
 
-BINARY = None
-TIMEOUT_S = 60
-
-
-def run(*arguments, stdout=subprocess.PIPE, cwd=None):
-    return subprocess.run([BINARY, *map(str, arguments)], stdout=stdout, stderr=subprocess.PIPE,
-                          encoding="utf-8", timeout=TIMEOUT_S, cwd=cwd, check=False)
+import cli_support
+from cli_support import CliTestCase, run
 
 
 def subcommands(*path):
@@ -45,17 +31,6 @@ def examples(*path):
     text = run(*path, "--help").stdout
     tail = text.rpartition("\nExamples:\n")[2]
     return [line.strip() for line in tail.splitlines() if line.strip()] if tail != text else []
-
-
-class CliTestCase(unittest.TestCase):
-    maxDiff = None
-
-    def assert_one_line_error(self, result, exit_code, *parts):
-        self.assertEqual(result.returncode, exit_code, result.stderr)
-        self.assertEqual(result.stdout or "", "")
-        self.assertRegex(result.stderr, r"\Achanging-slam: error: [^\n]+\n\Z")
-        for part in parts:
-            self.assertIn(part, result.stderr)
 
 
 class HelpTest(CliTestCase):
@@ -142,9 +117,7 @@ def first_key():
 
 class ConfigTest(CliTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="cslam_cli_")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = self.make_folder()
 
     def write(self, text):
         path = self.folder / "options.yaml"
@@ -198,17 +171,9 @@ class ConfigTest(CliTestCase):
             self.skipTest("no /dev/full here")
         with open("/dev/full", "w", encoding="utf-8") as full:
             result = run("config", stdout=full)
-        self.assert_one_line_error(result, 1, "standard output")
-
-
-def main():
-    global BINARY
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--binary", required=True)
-    arguments, rest = parser.parse_known_args()
-    BINARY = str(pathlib.Path(arguments.binary).resolve())
-    unittest.main(argv=[sys.argv[0], *rest], verbosity=1)
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, r"\Achanging-slam: error: [^\n]+\n\Z")
 
 
 if __name__ == "__main__":
-    main()
+    cli_support.main()
