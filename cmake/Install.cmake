@@ -4,7 +4,8 @@ include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cslam)
 
 install(TARGETS changing_slam RUNTIME COMPONENT runtime)
-install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/changing-slam
+        COMPONENT runtime)
 
 get_property(layer_targets GLOBAL PROPERTY CSLAM_LAYER_TARGETS)
 install(TARGETS ${layer_targets} EXPORT cslam-targets ARCHIVE COMPONENT development)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -D BUILD_DIR=... -D SOURCE_DIR=... -P this: installs the build into an empty folder, builds
+# cmake -D BUILD_DIR=... -D SOURCE_DIR=... -D PYTHON=... -P this: installs the build into an empty folder, builds
 # examples/ against it as a stranger would, and runs what came out.
-if(NOT DEFINED BUILD_DIR OR NOT DEFINED SOURCE_DIR)
-  message(FATAL_ERROR "BUILD_DIR and SOURCE_DIR are needed")
+if(NOT DEFINED BUILD_DIR OR NOT DEFINED SOURCE_DIR OR NOT DEFINED PYTHON)
+  message(FATAL_ERROR "BUILD_DIR, SOURCE_DIR and PYTHON are needed")
 endif()
 set(work ${BUILD_DIR}/install_test)
 set(prefix ${work}/prefix)
@@ -48,3 +48,7 @@ run(${CMAKE_COMMAND} --build ${work}/build --parallel 2)
 file(WRITE ${work}/reference.txt "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n3 2 1 1 0 0 0 1\n")
 run(${work}/build/compare_trajectories reference.txt reference.txt)
 expect("4 poses matched, ATE RMSE 0.0000 m")
+
+run(${PYTHON} -B ${SOURCE_DIR}/tests/tiny_dataset.py tiny)
+run(${work}/build/track_folder tiny)
+expect("20 of 20 frames tracked")

@@ -1,11 +1,15 @@
 # SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
 # SPDX-License-Identifier: Apache-2.0
 """Writes a small sequence in TUM layout with nothing but the standard library: a camera that
-looks at a board of random squares, 1.5 m away, and moves right, then down, by one pixel a frame."""
+looks at a board of random squares, 1.5 m away, and moves right, then down, by one pixel a frame.
+
+Usage: tiny_dataset.py FOLDER
+"""
 
 import pathlib
 import random
 import struct
+import sys
 import zlib
 
 WIDTH, HEIGHT = 320, 240
@@ -96,3 +100,7 @@ def write_camera(path, fx=FOCAL_PX):
         f"width: {WIDTH}\nheight: {HEIGHT}\nfx: {fx}\nfy: {FOCAL_PX}\n"
         f"cx: {WIDTH / 2 - 0.5}\ncy: {HEIGHT / 2 - 0.5}\ndepth_scale: {DEPTH_UNITS_PER_M}\n",
         encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write(sys.argv[1])
