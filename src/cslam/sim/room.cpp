@@ -38,9 +38,10 @@ class Study {
   explicit Study(const RoomOptions& options)
       : scale_(options.texels_per_m),
         scene_(options.seed, options.light_cell_m),
-        furnish_((AddShell(), scene_), options.texels_per_m) {}
+        furnish_(scene_, options.texels_per_m) {}
 
   Scene Build() {
+    AddShell();
     FurnishNorth();
     FurnishEast();
     FurnishSouth();
@@ -52,7 +53,7 @@ class Study {
  private:
   static constexpr double kShellDetail = 0.4;  // walls and floor are seen from afar
 
-  // Must come first: instance 0 is the room.
+  // The first object: instance 0 is the room.
   void AddShell() {
     const double scale = kShellDetail * scale_;
     const cv::Size long_wall = TexelSize(kLength_m, kHeight_m, scale);

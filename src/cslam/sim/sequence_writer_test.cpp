@@ -20,10 +20,11 @@
 namespace cslam {
 namespace {
 
-SimulatedSequence TinySequence() {
-  return {MakeRoom({.texels_per_m = 60.0, .light_cell_m = 1.0}),
-          MakeDemoPath(1),
-          {.width = 64, .height = 48, .num_frames = 5}};
+const SimulatedSequence& TinySequence() {
+  static const SimulatedSequence sequence(MakeRoom({.texels_per_m = 60.0, .light_cell_m = 1.0}),
+                                          MakeDemoPath(1),
+                                          {.width = 64, .height = 48, .num_frames = 5});
+  return sequence;
 }
 
 std::map<std::string, std::string> AllFiles(const std::filesystem::path& folder) {
@@ -39,7 +40,7 @@ std::map<std::string, std::string> AllFiles(const std::filesystem::path& folder)
 
 TEST(WriteSequence, WritesWhatTheReadersReadBack) {
   const TestFolder folder;
-  const SimulatedSequence sequence = TinySequence();
+  const SimulatedSequence& sequence = TinySequence();
   ASSERT_EQ(WriteSequence(sequence, folder.path(), {}), WriteOutcome::kComplete);
 
   const CameraConfig camera = ReadCameraFile(folder / "camera.yaml");
@@ -64,7 +65,7 @@ TEST(WriteSequence, WritesWhatTheReadersReadBack) {
 
 TEST(WriteSequence, WritesTheSameBytesWhateverTheNumberOfJobs) {
   const TestFolder folder;
-  const SimulatedSequence sequence = TinySequence();
+  const SimulatedSequence& sequence = TinySequence();
   WriteSequence(sequence, folder / "one", {.jobs = 1});
   WriteSequence(sequence, folder / "three", {.jobs = 3});
   const auto one = AllFiles(folder / "one");

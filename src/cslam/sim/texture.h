@@ -26,10 +26,10 @@ class Texture {
                         const Eigen::Vector2f& footprint_y) const;
 
  private:
-  Eigen::Array3f Bilinear(int level, const Eigen::Vector2f& uv) const;
-  Eigen::Array3f Trilinear(float level, const Eigen::Vector2f& uv) const;
+  Eigen::Array4f Bilinear(int level, const Eigen::Vector2f& uv) const;
+  Eigen::Array4f Trilinear(float level, const Eigen::Vector2f& uv) const;
 
-  std::vector<cv::Mat> levels_;  // CV_8UC3, halved until 1 x 1
+  std::vector<cv::Mat> levels_;  // CV_8UC4 (the fourth unused), halved until 1 x 1
 };
 
 }  // namespace cslam
