@@ -16,7 +16,7 @@ Alignment AlignCentres(const std::vector<PosePair>& pairs, AlignmentScale scale)
     reference.push_back(pair.reference.translation);
     estimate.push_back(pair.estimate.translation);
   }
-  const Alignment alignment = AlignPoints(reference, estimate, scale);
+  Alignment alignment = AlignPoints(reference, estimate, scale);
   if (!alignment.is_unique) {
     throw Error(
         "{} matched poses do not fix an alignment (fewer than three, or all on one line); use "

@@ -82,14 +82,14 @@ std::vector<PlotPoint> WithErrors(std::vector<PlotPoint> points, const Trajector
 
 // A pause much longer than the usual step of time.
 double LongestStep(const std::vector<PlotPoint>& points) {
-  constexpr double kShortestGap_s = 0.5;
+  constexpr double kShortestGapS = 0.5;
   std::vector<double> steps_s;
   for (std::size_t i = 1; i < points.size(); ++i)
     steps_s.push_back(points[i].time_s - points[i - 1].time_s);
-  if (steps_s.empty()) return kShortestGap_s;
+  if (steps_s.empty()) return kShortestGapS;
   const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
   std::nth_element(steps_s.begin(), middle, steps_s.end());
-  return std::max(kShortestGap_s, 5.0 * *middle);
+  return std::max(kShortestGapS, 5.0 * *middle);
 }
 
 std::vector<std::vector<PlotPoint>> SplitAtGaps(const std::vector<PlotPoint>& points) {

@@ -17,15 +17,15 @@
 namespace cslam {
 namespace {
 
-constexpr double kWidth_px = 900.0;
-constexpr double kLeft_px = 76.0;
-constexpr double kRight_px = 876.0;
-constexpr double kTop_px = 112.0;
-constexpr double kMinPathHeight_px = 340.0;
-constexpr double kMaxPathHeight_px = 680.0;
-constexpr double kTimeHeight_px = 130.0;
-constexpr double kBetween_px = 66.0;
-constexpr double kBottom_px = 56.0;
+constexpr double kWidthPx = 900.0;
+constexpr double kLeftPx = 76.0;
+constexpr double kRightPx = 876.0;
+constexpr double kTopPx = 112.0;
+constexpr double kMinPathHeightPx = 340.0;
+constexpr double kMaxPathHeightPx = 680.0;
+constexpr double kTimeHeightPx = 130.0;
+constexpr double kBetweenPx = 66.0;
+constexpr double kBottomPx = 56.0;
 
 constexpr const char* kReferenceStyle =
     R"(stroke="#9aa3ad" stroke-width="2" stroke-linejoin="round")";
@@ -53,11 +53,11 @@ Interval Around(double middle, double length) {
 struct Panel {
   double top_px = 0.0;
   double height_px = 0.0;
-  Interval right;  // from kLeft_px to kRight_px
+  Interval right;  // from kLeftPx to kRightPx
   Interval up;     // from the bottom to the top
 
   Eigen::Vector2d ToPixel(double x, double y) const {
-    return {kLeft_px + (x - right.min) / right.Length() * (kRight_px - kLeft_px),
+    return {kLeftPx + (x - right.min) / right.Length() * (kRightPx - kLeftPx),
             top_px + (up.max - y) / up.Length() * height_px};
   }
   double BottomPx() const { return top_px + height_px; }
@@ -114,14 +114,14 @@ Panel PathPanel(const PlotData& data) {
   if (!(low <= high).all()) low = high = 0.0;
 
   constexpr double kMargin = 1.12;
-  constexpr double kSmallest_m = 0.02;
-  const Eigen::Array2d extent = (kMargin * (high - low)).max(kSmallest_m);
+  constexpr double kSmallestM = 0.02;
+  const Eigen::Array2d extent = (kMargin * (high - low)).max(kSmallestM);
   const Eigen::Array2d middle = 0.5 * (low + high);
-  const double width_px = kRight_px - kLeft_px;
+  const double width_px = kRightPx - kLeftPx;
   Panel panel;
-  panel.top_px = kTop_px;
+  panel.top_px = kTopPx;
   panel.height_px = std::round(
-      std::clamp(width_px * extent.y() / extent.x(), kMinPathHeight_px, kMaxPathHeight_px));
+      std::clamp(width_px * extent.y() / extent.x(), kMinPathHeightPx, kMaxPathHeightPx));
   const double metres_per_px = std::max(extent.x() / width_px, extent.y() / panel.height_px);
   panel.right = Around(middle.x(), metres_per_px * width_px);
   panel.up = Around(middle.y(), metres_per_px * panel.height_px);
@@ -129,7 +129,7 @@ Panel PathPanel(const PlotData& data) {
 }
 
 Panel TimePanel(const PlotData& data, double top_px) {
-  Panel panel{.top_px = top_px, .height_px = kTimeHeight_px, .right = {}, .up = {}};
+  Panel panel{.top_px = top_px, .height_px = kTimeHeightPx, .right = {}, .up = {}};
   double last_s = 0.0;
   Interval value{0.0, 0.0};
   ForEachPoint(data, [&](const PlotPoint& point) {
@@ -139,11 +139,11 @@ Panel TimePanel(const PlotData& data, double top_px) {
     value.max = std::max(value.max, point.value_m);
   });
   constexpr double kHeadroom = 1.1;
-  constexpr double kSmallest_m = 1e-3;
+  constexpr double kSmallestM = 1e-3;
   panel.right.max = last_s > 0.0 ? last_s : 1.0;
   panel.up = data.has_error
-                 ? Interval{0.0, std::max(kHeadroom * value.max, kSmallest_m)}
-                 : Around(value.Middle(), std::max(kHeadroom * value.Length(), 10 * kSmallest_m));
+                 ? Interval{0.0, std::max(kHeadroom * value.max, kSmallestM)}
+                 : Around(value.Middle(), std::max(kHeadroom * value.Length(), 10 * kSmallestM));
   return panel;
 }
 
@@ -152,7 +152,7 @@ void DrawAxes(SvgImage& svg, const Panel& panel, const std::string& right_label,
               const std::string& up_label, double per_unit) {
   const double px_per_tick = 62.0;
   const Ticks right = RoundTicks(panel.right.min, panel.right.max,
-                                 static_cast<int>((kRight_px - kLeft_px) / px_per_tick));
+                                 static_cast<int>((kRightPx - kLeftPx) / px_per_tick));
   for (const double x : right.values) {
     const double x_px = panel.ToPixel(x, 0.0).x();
     svg.Line({x_px, panel.top_px}, {x_px, panel.BottomPx()}, kGridStyle);
@@ -163,12 +163,12 @@ void DrawAxes(SvgImage& svg, const Panel& panel, const std::string& right_label,
                               std::max(4, static_cast<int>(panel.height_px / px_per_tick)));
   for (const double y : up.values) {
     const double y_px = panel.ToPixel(0.0, y / per_unit).y();
-    svg.Line({kLeft_px, y_px}, {kRight_px, y_px}, kGridStyle);
-    svg.Text({kLeft_px - 8.0, y_px + 4.0}, fmt::format("{:.{}f}", y, up.decimals),
+    svg.Line({kLeftPx, y_px}, {kRightPx, y_px}, kGridStyle);
+    svg.Text({kLeftPx - 8.0, y_px + 4.0}, fmt::format("{:.{}f}", y, up.decimals),
              fmt::format("{} text-anchor=\"end\"", kTickStyle));
   }
-  svg.Rectangle({kLeft_px, panel.top_px}, {kRight_px - kLeft_px, panel.height_px}, kFrameStyle);
-  svg.Text({0.5 * (kLeft_px + kRight_px), panel.BottomPx() + 36.0}, right_label,
+  svg.Rectangle({kLeftPx, panel.top_px}, {kRightPx - kLeftPx, panel.height_px}, kFrameStyle);
+  svg.Text({0.5 * (kLeftPx + kRightPx), panel.BottomPx() + 36.0}, right_label,
            fmt::format("{} text-anchor=\"middle\"", kLabelStyle));
   const double middle_px = panel.top_px + 0.5 * panel.height_px;
   svg.Text({22.0, middle_px}, up_label,
@@ -242,9 +242,9 @@ void DrawTimeline(SvgImage& svg, const Panel& panel, const PlotData& data) {
 
 void DrawRmse(SvgImage& svg, const Panel& panel, double rmse_m) {
   const double y_px = panel.ToPixel(0.0, rmse_m).y();
-  svg.Line({kLeft_px, y_px}, {kRight_px, y_px},
+  svg.Line({kLeftPx, y_px}, {kRightPx, y_px},
            R"(stroke="#343a40" stroke-width="1" stroke-dasharray="5 4")");
-  svg.Text({kRight_px - 6.0, y_px - 5.0}, "RMSE " + FormatLength(rmse_m),
+  svg.Text({kRightPx - 6.0, y_px - 5.0}, "RMSE " + FormatLength(rmse_m),
            R"(font-size="11" fill="#343a40" text-anchor="end" stroke="#ffffff" stroke-width="3" )"
            R"(paint-order="stroke")");
 }
@@ -264,22 +264,22 @@ std::string Summary(const TrajectoryPlot& plot) {
 }
 
 void DrawErrorScale(SvgImage& svg, double left_px, double y_px, double max_error_m) {
-  constexpr double kScaleWidth_px = 120.0;
-  const double step_px = kScaleWidth_px / kNumColours;
+  constexpr double kScaleWidthPx = 120.0;
+  const double step_px = kScaleWidthPx / kNumColours;
   for (int i = 0; i < kNumColours; ++i) {
     svg.Rectangle({left_px + step_px * i, y_px - 7.0}, {step_px + 0.3, 6.0},
                   fmt::format("fill=\"{}\"", ErrorColour((i + 0.5) / kNumColours)));
   }
-  svg.Text({left_px + kScaleWidth_px + 8.0, y_px},
+  svg.Text({left_px + kScaleWidthPx + 8.0, y_px},
            fmt::format("estimate, error 0 to {}", FormatLength(max_error_m)), kLabelStyle);
 }
 
 void DrawHeader(SvgImage& svg, const TrajectoryPlot& plot, const PlotData& data,
                 std::optional<double> max_error_m) {
-  svg.Text({kLeft_px, 36.0}, plot.title, R"(font-size="20" font-weight="bold" fill="#212529")");
-  svg.Text({kLeft_px, 60.0}, Summary(plot), R"(font-size="13" fill="#495057")");
+  svg.Text({kLeftPx, 36.0}, plot.title, R"(font-size="20" font-weight="bold" fill="#212529")");
+  svg.Text({kLeftPx, 60.0}, Summary(plot), R"(font-size="13" fill="#495057")");
   const double y_px = 94.0;
-  double x_px = kLeft_px;
+  double x_px = kLeftPx;
   if (!data.reference.empty()) {
     svg.Line({x_px, y_px - 4.0}, {x_px + 26.0, y_px - 4.0}, kReferenceStyle);
     svg.Text({x_px + 34.0, y_px}, "ground truth", kLabelStyle);
@@ -311,9 +311,9 @@ std::string FormatTrajectorySvg(const TrajectoryPlot& plot) {
   std::optional<double> max_error_m;
   if (data.has_error) max_error_m = std::max(plot.ate->statistics_m.max, 1e-6);
   const Panel path = PathPanel(data);
-  const Panel time = TimePanel(data, path.BottomPx() + kBetween_px);
+  const Panel time = TimePanel(data, path.BottomPx() + kBetweenPx);
 
-  SvgImage svg(kWidth_px, time.BottomPx() + kBottom_px);
+  SvgImage svg(kWidthPx, time.BottomPx() + kBottomPx);
   DrawHeader(svg, plot, data, max_error_m);
   DrawAxes(svg, path, data.right_axis, data.up_axis, 1.0);
   DrawPaths(svg, path, data, max_error_m);
