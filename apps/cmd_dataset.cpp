@@ -56,7 +56,7 @@ std::string GroundTruthText(const DatasetInfo& info) {
   if (!info.ground_truth) return "no";
   const GroundTruthInfo& truth = *info.ground_truth;
   if (!truth.problem.empty()) return "unusable: " + truth.problem;
-  return fmt::format("{}: {} poses, {:.2f} m, covers {} of {} frames",
+  return fmt::format("{}: {} poses, {:.2f} m over the {} of {} frames it covers",
                      truth.path.filename().string(), truth.num_poses, truth.path_length_m,
                      truth.num_covered_frames, info.num_frames);
 }
@@ -202,7 +202,7 @@ std::shared_ptr<DatasetArguments> AddArguments(CLI::App& app, const char* sample
       ->type_name("NAME|FILE");
   app.add_option("--depth-scale", arguments->camera.depth_units_per_m,
                  "Depth image units per metre; overrides that of the camera");
-  app.add_option("--sample", arguments->num_samples, sample_help)->check(CLI::PositiveNumber);
+  app.add_option("--sample", arguments->num_samples, sample_help)->check(CLI::Range(1, 1'000'000));
   app.add_flag("--json", arguments->as_json, "Print JSON");
   return arguments;
 }

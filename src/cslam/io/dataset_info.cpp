@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -80,6 +82,22 @@ cv::Size FindImageSize(const std::vector<TumPair>& pairs) {
   return {};
 }
 
+// Null if the nearest one is outside the window.
+const StampedPose* NearestPose(const Trajectory& trajectory, Stamp stamp) {
+  const auto distance_ns = [&](const StampedPose& pose) {
+    return std::abs(pose.stamp.ns - stamp.ns);
+  };
+  const auto after =
+      std::lower_bound(trajectory.begin(), trajectory.end(), stamp,
+                       [](const StampedPose& pose, Stamp wanted) { return pose.stamp < wanted; });
+  const StampedPose* nearest = after == trajectory.end() ? nullptr : &*after;
+  if (after != trajectory.begin()) {
+    const StampedPose& before = *std::prev(after);
+    if (nearest == nullptr || distance_ns(before) < distance_ns(*nearest)) nearest = &before;
+  }
+  return nearest != nullptr && distance_ns(*nearest) <= kGroundTruthWindowNs ? nearest : nullptr;
+}
+
 }  // namespace
 
 std::vector<FrameGap> FindGaps(const std::vector<TumPair>& pairs, double longer_than_s) {
@@ -135,20 +153,13 @@ GroundTruthInfo InspectGroundTruth(const std::filesystem::path& path,
   }
   if (trajectory.empty()) info.problem = fmt::format("'{}' has no pose", path.string());
   info.num_poses = trajectory.size();
-  info.path_length_m = PathLength(trajectory);
-  const auto nearest_ns = [&](Stamp stamp) {
-    const auto after =
-        std::lower_bound(trajectory.begin(), trajectory.end(), stamp,
-                         [](const StampedPose& pose, Stamp wanted) { return pose.stamp < wanted; });
-    std::int64_t best_ns = std::numeric_limits<std::int64_t>::max();
-    if (after != trajectory.end()) best_ns = after->stamp.ns - stamp.ns;
-    if (after != trajectory.begin())
-      best_ns = std::min(best_ns, stamp.ns - std::prev(after)->stamp.ns);
-    return best_ns;
-  };
+  Trajectory at_frames;
   for (const TumPair& pair : pairs) {
-    if (nearest_ns(pair.color_stamp) <= kGroundTruthWindowNs) ++info.num_covered_frames;
+    const StampedPose* pose = NearestPose(trajectory, pair.color_stamp);
+    if (pose != nullptr) at_frames.push_back(*pose);
   }
+  info.num_covered_frames = at_frames.size();
+  info.path_length_m = PathLength(at_frames);
   return info;
 }
 

@@ -47,8 +47,8 @@ class DepthStatistics {
 struct GroundTruthInfo {
   std::filesystem::path path;
   std::size_t num_poses = 0;
-  double path_length_m = 0.0;
   std::size_t num_covered_frames = 0;  // frames with a pose within 0.02 s
+  double path_length_m = 0.0;          // from covered frame to covered frame, as SLAM can see it
   std::string problem;                 // why the file cannot be used; empty if it can
 };
 
