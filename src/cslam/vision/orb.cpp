@@ -83,6 +83,7 @@ struct OrbExtractor::Workspace {
   cv::Size full_size;
   std::vector<Level> levels;                 // finest first
   std::vector<orb::Downscaler> downscalers;  // [i] makes levels[i + 1] from levels[i]
+  cv::Mat smoothed_scores;                   // of the level being looked at
   std::vector<double> shares;                // of the features, per level
   orb::RotatedPattern pattern{orb::TestPattern()};
   orb::Simd simd = orb::BestSimd();
@@ -125,7 +126,8 @@ void OrbExtractor::Workspace::Detect(const OrbOptions& options, const cv::Mat& m
   for (Level& level : levels) {
     const cv::Size size = level.image.size();
     orb::FastScores(level.image, low, simd, level.scores);
-    std::vector<Candidate> candidates = orb::LocalMaxima(level.scores, simd);
+    orb::SmoothScores(level.scores, simd, smoothed_scores);
+    std::vector<Candidate> candidates = orb::LocalMaxima(level.scores, smoothed_scores, simd);
     if (!mask.empty()) {
       std::erase_if(candidates, [&](const Candidate& c) {
         const cv::Point2f uv = ToFullResolution(c.x, c.y, size, full_size);
@@ -172,8 +174,10 @@ void OrbExtractor::Workspace::Append(std::size_t octave, bool subpixel,
       const auto score = [&](int dx, int dy) {
         return static_cast<int>(level.scores.at<std::uint8_t>(c.y + dy, c.x + dx));
       };
-      x += ParabolaPeak(score(-1, 0), score(0, 0), score(1, 0));
-      y += ParabolaPeak(score(0, -1), score(0, 0), score(0, 1));
+      const auto column = [&](int dx) { return score(dx, -1) + 2 * score(dx, 0) + score(dx, 1); };
+      const auto row = [&](int dy) { return score(-1, dy) + 2 * score(0, dy) + score(1, dy); };
+      x += ParabolaPeak(column(-1), column(0), column(1));
+      y += ParabolaPeak(row(-1), row(0), row(1));
     }
     const cv::Point2f uv = ToFullResolution(x, y, level.image.size(), full_size);
     const float angle_rad = Orientation(orb::DiscMoments(level.image, c.x, c.y, simd));

@@ -29,10 +29,6 @@ bool IsBetter(const Candidate& a, const Candidate& b) {
   return std::tuple(b.score, a.y, a.x) < std::tuple(a.score, b.y, b.x);
 }
 
-bool IsBefore(const Candidate& a, const Candidate& b) {
-  return std::tuple(a.y, a.x) < std::tuple(b.y, b.x);
-}
-
 // Candidates sorted by the cell of a grid they lie in.
 struct Grid {
   // Cells have at least `cell_size` px on a side, unless the area is smaller.
@@ -164,7 +160,6 @@ std::vector<Candidate> ThinOut(const std::vector<Candidate>& candidates, cv::Rec
     }
     kept.insert(kept.end(), begin, strong_end);
   }
-  std::sort(kept.begin(), kept.end(), IsBefore);
   return kept;
 }
 
@@ -173,9 +168,10 @@ std::vector<Candidate> SelectEvenly(const std::vector<Candidate>& candidates, cv
   const auto wanted = static_cast<std::size_t>(std::max(count, 0));
   if (candidates.size() <= wanted) return candidates;
   if (wanted == 0) return {};
-  // Twice the spacing of `wanted` corners on a square grid: larger radii need not be told apart.
+  // More than the spacing of `wanted` corners on a square grid: larger radii need not be told
+  // apart.
   const double largest =
-      2.0 * std::sqrt(static_cast<double>(area.area()) / static_cast<double>(wanted));
+      1.5 * std::sqrt(static_cast<double>(area.area()) / static_cast<double>(wanted));
   const Grid grid(candidates, area, static_cast<int>(std::ceil(largest)));
   const auto largest2 = static_cast<float>(largest * largest);
   const std::vector<float> radii2 =

@@ -11,14 +11,14 @@
 namespace cslam::orb {
 
 // In each cell of about 30 px keeps the strongest candidates above `score` (16 of them, more where
-// `count` corners need them), or the strongest of all if none is above it. Reading order is kept.
+// `count` corners need them), or the strongest of all if none is above it. In any order.
 std::vector<Candidate> ThinOut(const std::vector<Candidate>& candidates, cv::Rect area, int score,
                                int count);
 
 // The `count` candidates (or all, if there are fewer) with the largest suppression radius: the
 // distance to the next stronger candidate, stretched the more the closer that one is in strength.
 // Even cover without cell borders, yet strong corners side by side stay (after Brown, Szeliski,
-// Winder: Multi-Image Matching using Multi-Scale Oriented Patches, 2005). Any order.
+// Winder: Multi-Image Matching using Multi-Scale Oriented Patches, 2005). In any order.
 std::vector<Candidate> SelectEvenly(const std::vector<Candidate>& candidates, cv::Rect area,
                                     int count, Simd simd);
 

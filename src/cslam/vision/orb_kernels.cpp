@@ -111,6 +111,29 @@ CSLAM_TARGET_AVX2 void FastScoreRowAvx2(const Byte* center, std::ptrdiff_t step,
   FastScoreRow(center, step, count, threshold, out);
 }
 
+// The mean of two bytes, rounded up, as processors have it in one instruction.
+CSLAM_KERNEL Byte Mean(Byte a, Byte b) {
+  return static_cast<Byte>((a + b + 1) >> 1);
+}
+
+// [1 2 1] / 4 down and across. Reads one more on either side of `count` pixels; `columns` has
+// room for count + 2.
+CSLAM_KERNEL void SmoothRow(const Byte* s, std::ptrdiff_t step, int count, Byte* __restrict columns,
+                            Byte* __restrict out) {
+  const Byte* left = s - 1;
+  for (int x = 0; x < count + 2; ++x) {
+    columns[x] = Mean(Mean(left[x - step], left[x + step]), left[x]);
+  }
+  for (int x = 0; x < count; ++x) {
+    out[x] = Mean(Mean(columns[x], columns[x + 2]), columns[x + 1]);
+  }
+}
+
+CSLAM_TARGET_AVX2 void SmoothRowAvx2(const Byte* s, std::ptrdiff_t step, int count,
+                                     Byte* __restrict columns, Byte* __restrict out) {
+  SmoothRow(s, step, count, columns, out);
+}
+
 CSLAM_KERNEL void SuppressRow(const Byte* s, std::ptrdiff_t step, int count, Byte* __restrict out) {
   const Byte* above = s - step;
   const Byte* below = s + step;
@@ -129,21 +152,20 @@ CSLAM_TARGET_AVX2 void SuppressRowAvx2(const Byte* s, std::ptrdiff_t step, int c
   SuppressRow(s, step, count, out);
 }
 
-// [1 2 3 4 3 2 1] is [1 1 1 1] applied twice; 16 * 16 * 255 fits 16 bits, so nothing is rounded
-// before the end.
+// 16 * 16 * 255 + 128 fits 16 bits, so nothing is rounded before the end.
 CSLAM_KERNEL void BlurRow(const Byte* center, std::ptrdiff_t step, int width, Word* __restrict sums,
                           Byte* __restrict out) {
   for (int x = 0; x < width; ++x) {
     const int outer = center[x - 3 * step] + center[x + 3 * step];
     const int middle = center[x - 2 * step] + center[x + 2 * step];
     const int inner = center[x - step] + center[x + step];
-    sums[x] = static_cast<Word>(outer + 2 * middle + 3 * inner + 4 * center[x]);
+    sums[x] = static_cast<Word>(outer + inner + 2 * (middle + inner + 2 * center[x]));
   }
   for (int x = 3; x < width - 3; ++x) {
     const auto outer = static_cast<Word>(sums[x - 3] + sums[x + 3]);
     const auto middle = static_cast<Word>(sums[x - 2] + sums[x + 2]);
     const auto inner = static_cast<Word>(sums[x - 1] + sums[x + 1]);
-    const auto sum = static_cast<Word>(outer + 2 * middle + 3 * inner + 4 * sums[x] + 128);
+    const auto sum = static_cast<Word>(outer + inner + 2 * (middle + inner + 2 * sums[x]) + 128);
     out[x] = static_cast<Byte>(sum >> 8);
   }
 }
@@ -275,7 +297,7 @@ void Downscaler::Run(const cv::Mat& image, Simd simd, cv::Mat& smaller) {
 }
 
 void FastScores(const cv::Mat& image, int threshold, Simd simd, cv::Mat& scores) {
-  constexpr int kMargin = kBorder - 1;
+  constexpr int kMargin = kBorder - 2;
   scores.create(image.size(), CV_8UC1);
   const auto score_row = simd == Simd::kAvx2 ? FastScoreRowAvx2 : FastScoreRow;
   const auto step = static_cast<std::ptrdiff_t>(image.step[0]);
@@ -285,23 +307,35 @@ void FastScores(const cv::Mat& image, int threshold, Simd simd, cv::Mat& scores)
   }
 }
 
-std::vector<Candidate> LocalMaxima(const cv::Mat& scores, Simd simd) {
+void SmoothScores(const cv::Mat& scores, Simd simd, cv::Mat& smoothed) {
+  constexpr int kMargin = kBorder - 1;
+  smoothed.create(scores.size(), CV_8UC1);
+  std::vector<Byte> columns(static_cast<std::size_t>(scores.cols));
+  const auto smooth_row = simd == Simd::kAvx2 ? SmoothRowAvx2 : SmoothRow;
+  const auto step = static_cast<std::ptrdiff_t>(scores.step[0]);
+  for (int y = kMargin; y < scores.rows - kMargin; ++y) {
+    smooth_row(scores.ptr<Byte>(y) + kMargin, step, scores.cols - 2 * kMargin, columns.data(),
+               smoothed.ptr<Byte>(y) + kMargin);
+  }
+}
+
+std::vector<Candidate> LocalMaxima(const cv::Mat& scores, const cv::Mat& smoothed, Simd simd) {
   std::vector<Candidate> maxima;
   const int count = scores.cols - 2 * kBorder;
-  if (count <= 0) return maxima;
   std::vector<Byte> kept((static_cast<std::size_t>(count) + 7) / 8 * 8);
   const auto suppress_row = simd == Simd::kAvx2 ? SuppressRowAvx2 : SuppressRow;
-  const auto step = static_cast<std::ptrdiff_t>(scores.step[0]);
+  const auto step = static_cast<std::ptrdiff_t>(smoothed.step[0]);
   for (int y = kBorder; y < scores.rows - kBorder; ++y) {
-    suppress_row(scores.ptr<Byte>(y) + kBorder, step, count, kept.data());
+    suppress_row(smoothed.ptr<Byte>(y) + kBorder, step, count, kept.data());
+    const Byte* row = scores.ptr<Byte>(y) + kBorder;
     for (std::size_t x8 = 0; x8 < kept.size(); x8 += 8) {
       std::uint64_t word = 0;
       std::memcpy(&word, kept.data() + x8, 8);
       if (word == 0) continue;
       for (std::size_t x = x8; x < x8 + 8; ++x) {
-        if (kept[x] == 0) continue;
+        if (kept[x] == 0 || row[x] == 0) continue;
         maxima.push_back(
-            {static_cast<std::int16_t>(x + kBorder), static_cast<std::int16_t>(y), kept[x]});
+            {static_cast<std::int16_t>(x + kBorder), static_cast<std::int16_t>(y), row[x]});
       }
     }
   }
