@@ -16,7 +16,7 @@
 namespace cslam {
 namespace {
 
-constexpr double kRamp_s = 0.8;  // from rest to full speed, and back
+constexpr double kRampS = 0.8;  // from rest to full speed, and back
 
 // Uniform cubic B-spline weights of four neighbouring keys; t in [0, 1].
 std::array<double, 4> SplineWeights(double t) {
@@ -27,7 +27,7 @@ std::array<double, 4> SplineWeights(double t) {
 
 // Share of the path covered at a time: constant speed between two smooth ramps.
 double Progress(double time_s, double duration_s) {
-  const double ramp_s = std::min(kRamp_s, 0.5 * duration_s);
+  const double ramp_s = std::min(kRampS, 0.5 * duration_s);
   const auto ramp = [&](double t) {  // integral of smoothstep(t / ramp_s)
     const double x = std::clamp(t / ramp_s, 0.0, 1.0);
     return ramp_s * (x * x * x - 0.5 * x * x * x * x);

@@ -43,11 +43,11 @@ TEST(CameraPath, StartsAndEndsAtRestAtTheOuterKeys) {
 
 TEST(CameraPath, MovesWithoutJumpsInSpeed) {
   const CameraPath path = StraightPath();
-  constexpr double kStep_s = 0.01;
+  constexpr double kStepS = 0.01;
   double previous_m = 0.0;
-  for (double t = 0.0; t < 6.5; t += kStep_s) {
+  for (double t = 0.0; t < 6.5; t += kStepS) {
     const double step_m =
-        path.T_world_camera(t + kStep_s).translation.x() - path.T_world_camera(t).translation.x();
+        path.T_world_camera(t + kStepS).translation.x() - path.T_world_camera(t).translation.x();
     EXPECT_GE(step_m, -1e-12) << "at " << t;
     EXPECT_LT(std::abs(step_m - previous_m), 2e-4) << "at " << t;
     previous_m = step_m;
@@ -72,16 +72,15 @@ TEST(CameraPath, WobblesALittleAndDifferentlyForEverySeed) {
 
 TEST(MakeDemoPath, TravelsAndTurnsAsPromisedAtTheSpeedOfACarefulHand) {
   const CameraPath path = MakeDemoPath(1);
-  constexpr double kStep_s = 1.0 / 30.0;
+  constexpr double kStepS = 1.0 / 30.0;
   double length_m = 0.0;
   double turned_rad = 0.0;
-  for (double t = 0.0; t + kStep_s <= path.duration_s(); t += kStep_s) {
-    const PoseDifference step =
-        Difference(path.T_world_camera(t), path.T_world_camera(t + kStep_s));
+  for (double t = 0.0; t + kStepS <= path.duration_s(); t += kStepS) {
+    const PoseDifference step = Difference(path.T_world_camera(t), path.T_world_camera(t + kStepS));
     length_m += step.distance_m;
     turned_rad += step.angle_rad;
-    EXPECT_LT(step.distance_m / kStep_s, 0.65) << "at " << t;
-    EXPECT_LT(step.angle_rad / kStep_s, 45.0 * std::numbers::pi / 180.0) << "at " << t;
+    EXPECT_LT(step.distance_m / kStepS, 0.65) << "at " << t;
+    EXPECT_LT(step.angle_rad / kStepS, 45.0 * std::numbers::pi / 180.0) << "at " << t;
   }
   EXPECT_GT(length_m, 6.0);
   EXPECT_GT(turned_rad, 2.0 * std::numbers::pi);

@@ -11,7 +11,7 @@
 namespace cslam {
 namespace {
 
-constexpr double kHalfTurn_rad = 3.14159265358979323846;
+constexpr double kHalfTurnRad = 3.14159265358979323846;
 
 BoxLook WithFront(int front, int other) {
   BoxLook look = Uniform(other);
@@ -54,15 +54,15 @@ int Furnisher::AnyWood() {
 }
 
 void Furnisher::Desk(const Se3& T_world_desk, double width_m) {
-  constexpr double kDepth_m = 0.75;
-  constexpr double kHeight_m = 0.74;
+  constexpr double kDepthM = 0.75;
+  constexpr double kHeightM = 0.74;
   const int wood = AnyWood();
   scene_.AddObject("desk", kNoClass, T_world_desk, [&](MeshBuilder& mesh) {
-    mesh.AddBox(At(0.0, 0.0, kHeight_m - 0.03), {width_m, kDepth_m, 0.03}, Uniform(wood));
+    mesh.AddBox(At(0.0, 0.0, kHeightM - 0.03), {width_m, kDepthM, 0.03}, Uniform(wood));
     mesh.AddBox(At(0.0, 0.3, 0.3), {width_m - 0.1, 0.02, 0.4}, Uniform(wood));
     for (const double x : {-0.5 * width_m + 0.05, 0.5 * width_m - 0.05}) {
-      for (const double y : {-0.5 * kDepth_m + 0.06, 0.5 * kDepth_m - 0.06})
-        mesh.AddBox(At(x, y, 0.0), {0.05, 0.05, kHeight_m - 0.03}, Uniform(metal_));
+      for (const double y : {-0.5 * kDepthM + 0.06, 0.5 * kDepthM - 0.06})
+        mesh.AddBox(At(x, y, 0.0), {0.05, 0.05, kHeightM - 0.03}, Uniform(metal_));
     }
   });
   Cabinet(T_world_desk * At(0.5 * width_m - 0.32, -0.02, 0.0), {0.42, 0.6, 0.62}, 3);
@@ -115,25 +115,24 @@ void Furnisher::Books(const Se3& T_world_board, double width_m, double height_m,
 }
 
 void Furnisher::Shelf(const Se3& T_world_shelf, const Eigen::Vector3d& size_m, int levels) {
-  constexpr double kBoard_m = 0.025;
+  constexpr double kBoardM = 0.025;
   const int wood = AnyWood();
   const double width_m = size_m.x();
   const double depth_m = size_m.y();
-  const double pitch_m = (size_m.z() - kBoard_m) / levels;
+  const double pitch_m = (size_m.z() - kBoardM) / levels;
   scene_.AddObject("shelf", kNoClass, T_world_shelf, [&](MeshBuilder& mesh) {
     for (const double x : {-0.5 * width_m, 0.5 * width_m})
-      mesh.AddBox(At(x, 0.0, 0.0), {kBoard_m, depth_m, size_m.z()}, Uniform(wood));
+      mesh.AddBox(At(x, 0.0, 0.0), {kBoardM, depth_m, size_m.z()}, Uniform(wood));
     mesh.AddBox(At(0.0, 0.5 * depth_m - 0.005, 0.0), {width_m, 0.01, size_m.z()}, Uniform(wood));
     for (int i = 0; i <= levels; ++i)
-      mesh.AddBox(At(0.0, 0.0, i * pitch_m), {width_m - kBoard_m, depth_m, kBoard_m},
-                  Uniform(wood));
+      mesh.AddBox(At(0.0, 0.0, i * pitch_m), {width_m - kBoardM, depth_m, kBoardM}, Uniform(wood));
   });
   for (int i = 0; i < levels; ++i) {
-    const Se3 T_world_board = T_world_shelf * At(0.0, 0.0, i * pitch_m + kBoard_m);
+    const Se3 T_world_board = T_world_shelf * At(0.0, 0.0, i * pitch_m + kBoardM);
     if (i % 3 == 2) {
       Clutter(T_world_board, width_m - 0.15, depth_m - 0.1, 4);
     } else {
-      Books(T_world_board, width_m - 2.0 * kBoard_m, pitch_m - kBoard_m, depth_m);
+      Books(T_world_board, width_m - 2.0 * kBoardM, pitch_m - kBoardM, depth_m);
     }
   }
   Clutter(T_world_shelf * At(0.0, 0.0, size_m.z()), width_m - 0.2, depth_m - 0.1, 3);
@@ -233,7 +232,7 @@ void Furnisher::Cup(const Se3& T_world_cup) {
   scene_.AddObject("cup", kCocoCup, T_world_cup, [&](MeshBuilder& mesh) {
     // Two boxes crossed at 45 degrees: nearly round.
     mesh.AddBox(Se3(), {0.075, 0.075, 0.1}, WithTop(dark_, side));
-    mesh.AddBox(At(0.0, 0.0, 0.0, 0.25 * kHalfTurn_rad), {0.075, 0.075, 0.1}, WithTop(dark_, side));
+    mesh.AddBox(At(0.0, 0.0, 0.0, 0.25 * kHalfTurnRad), {0.075, 0.075, 0.1}, WithTop(dark_, side));
   });
 }
 

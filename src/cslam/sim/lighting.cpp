@@ -14,8 +14,8 @@ namespace cslam {
 namespace {
 
 constexpr double kGamma = 2.2;
-constexpr float kOffset_m = 0.002F;  // rays start this far off the surface
-constexpr double kInset_m = 0.01;    // and this far from the face's border, out of the corners
+constexpr float kOffsetM = 0.002F;  // rays start this far off the surface
+constexpr double kInsetM = 0.01;    // and this far from the face's border, out of the corners
 constexpr float kMinGain = 0.12F;
 
 // The i-th of count well-spread points of the unit square (Hammersley).
@@ -150,11 +150,11 @@ std::vector<float> BakeObject(const SceneObject& object, const Baker& baker) {
     const Eigen::Vector3d p = object.T_world_object * mesh.positions[v].cast<double>();
     const Eigen::Vector3d to_centre = R * (inward[v] - mesh.positions[v]).cast<double>();
     const double length = to_centre.norm();
-    const Eigen::Vector3d inset =
-        length > 1e-9 ? Eigen::Vector3d(to_centre * std::min(0.5, kInset_m / length))
-                      : Eigen::Vector3d::Zero();
+    const Eigen::Vector3d inset = length > 1e-9
+                                      ? Eigen::Vector3d(to_centre * std::min(0.5, kInsetM / length))
+                                      : Eigen::Vector3d::Zero();
     const double irradiance =
-        baker.Irradiance(p + inset + static_cast<double>(kOffset_m) * normal, normal);
+        baker.Irradiance(p + inset + static_cast<double>(kOffsetM) * normal, normal);
     if (irradiance > 0.0) gains[v] = static_cast<float>(std::pow(irradiance, 1.0 / kGamma));
   }
   std::vector<float> result;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace cslam {
 namespace {
@@ -28,7 +29,8 @@ cv::Mat RandomField(cv::Size size, cv::Size2d spacing_px, Rng& rng) {
 }  // namespace
 
 int RandomInt(Rng& rng, int low, int high) {
-  return low + static_cast<int>(rng.Index(static_cast<std::uint64_t>(high - low + 1)));
+  const std::int64_t count = std::int64_t{high} - low + 1;
+  return low + static_cast<int>(rng.Index(static_cast<std::uint64_t>(count)));
 }
 
 cv::Mat FractalNoise(cv::Size size, cv::Size2d spacing_px, int octaves, Rng& rng) {

@@ -79,6 +79,7 @@ void Shape(cv::Mat& image, Rng& rng) {
                 cv::FILLED, cv::LINE_AA);
   } else {
     std::vector<cv::Point> corners;
+    corners.reserve(4);
     for (int i = 0; i < kind + 1; ++i)
       corners.emplace_back(RandomInt(rng, box.x, box.x + box.width),
                            RandomInt(rng, box.y, box.y + box.height));

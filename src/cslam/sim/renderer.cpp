@@ -17,7 +17,7 @@ namespace {
 
 // Offsets (px) of the extra rays of an edge pixel: a rotated grid, so that edges of every
 // direction get evenly spaced steps.
-constexpr std::array<std::array<double, 2>, 4> kEdgeOffsets_px{
+constexpr std::array<std::array<double, 2>, 4> kEdgeOffsetsPx{
     {{-0.375, -0.125}, {0.125, -0.375}, {0.375, 0.125}, {-0.125, 0.375}}};
 constexpr float kSameFaceCosine = 0.97F;
 
@@ -136,8 +136,8 @@ std::vector<std::size_t> Renderer::EdgePixels(std::span<const RayHit> hits) cons
     const Facet& facet_b = FacetOf(b);
     if (facet_a.normal.dot(facet_b.normal) < kSameFaceCosine) return true;
     if (facet_a.texture != facet_b.texture) return true;
-    constexpr float kSamePlane_m = 0.002F;
-    return std::abs(facet_a.normal.dot(facet_b.p0 - facet_a.p0)) > kSamePlane_m;
+    constexpr float kSamePlaneM = 0.002F;
+    return std::abs(facet_a.normal.dot(facet_b.p0 - facet_a.p0)) > kSamePlaneM;
   };
   std::vector<char> is_edge(hits.size(), 0);
   for (std::size_t v = 0; v < height; ++v) {
@@ -158,9 +158,9 @@ std::vector<std::size_t> Renderer::EdgePixels(std::span<const RayHit> hits) cons
 void Renderer::SmoothEdges(const ViewPoint& view, std::span<const RayHit> hits, cv::Mat bgr) const {
   const std::vector<std::size_t> pixels = EdgePixels(hits);
   std::vector<Eigen::Vector3f> rays;
-  rays.reserve(pixels.size() * kEdgeOffsets_px.size());
+  rays.reserve(pixels.size() * kEdgeOffsetsPx.size());
   for (const std::size_t pixel : pixels) {
-    for (const auto& [du, dv] : kEdgeOffsets_px) {
+    for (const auto& [du, dv] : kEdgeOffsetsPx) {
       rays.emplace_back(view.R * pixel_rays_[pixel] + static_cast<float>(du) * view.step_x +
                         static_cast<float>(dv) * view.step_y);
     }
@@ -169,9 +169,9 @@ void Renderer::SmoothEdges(const ViewPoint& view, std::span<const RayHit> hits, 
   auto* colours = bgr.ptr<cv::Vec3b>();
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     Eigen::Array3f sum = Eigen::Array3f::Zero();
-    for (std::size_t k = i * kEdgeOffsets_px.size(); k < (i + 1) * kEdgeOffsets_px.size(); ++k)
+    for (std::size_t k = i * kEdgeOffsetsPx.size(); k < (i + 1) * kEdgeOffsetsPx.size(); ++k)
       sum += Shade(view, edge_hits[k], rays[k]);
-    colours[pixels[i]] = ToPixel(sum / static_cast<float>(kEdgeOffsets_px.size()));
+    colours[pixels[i]] = ToPixel(sum / static_cast<float>(kEdgeOffsetsPx.size()));
   }
 }
 

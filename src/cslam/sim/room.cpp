@@ -13,20 +13,20 @@
 namespace cslam {
 namespace {
 
-constexpr double kLength_m = 6.0;  // x
-constexpr double kWidth_m = 5.0;   // y
-constexpr double kHeight_m = 2.7;  // z
+constexpr double kLengthM = 6.0;  // x
+constexpr double kWidthM = 5.0;   // y
+constexpr double kHeightM = 2.7;  // z
 
 // Poses on the walls: along says how far from the left (m) as one looks at the wall, out how far
 // from it, z how high. The front of what stands there faces the room.
 Se3 North(double along, double out, double z = 0.0) {
-  return Standing(along, kWidth_m - out, z);
+  return Standing(along, kWidthM - out, z);
 }
 Se3 East(double along, double out, double z = 0.0) {
-  return Standing(kLength_m - out, kWidth_m - along, z, -0.5 * std::numbers::pi);
+  return Standing(kLengthM - out, kWidthM - along, z, -0.5 * std::numbers::pi);
 }
 Se3 South(double along, double out, double z = 0.0) {
-  return Standing(kLength_m - along, out, z, std::numbers::pi);
+  return Standing(kLengthM - along, out, z, std::numbers::pi);
 }
 Se3 West(double along, double out, double z = 0.0) {
   return Standing(out, along, z, 0.5 * std::numbers::pi);
@@ -56,9 +56,9 @@ class Study {
   // The first object: instance 0 is the room.
   void AddShell() {
     const double scale = kShellDetail * scale_;
-    const cv::Size long_wall = TexelSize(kLength_m, kHeight_m, scale);
-    const cv::Size short_wall = TexelSize(kWidth_m, kHeight_m, scale);
-    const cv::Size ground = TexelSize(kLength_m, kWidth_m, scale);
+    const cv::Size long_wall = TexelSize(kLengthM, kHeightM, scale);
+    const cv::Size short_wall = TexelSize(kWidthM, kHeightM, scale);
+    const cv::Size ground = TexelSize(kLengthM, kWidthM, scale);
     const int north =
         scene_.AddPicture(PaintPlaster(long_wall, scale, {176, 206, 214}, scene_.NextRng()));
     const int east = scene_.AddPicture(PaintBricks(short_wall, scale, scene_.NextRng()));
@@ -68,9 +68,9 @@ class Study {
         scene_.AddPicture(PaintPlaster(short_wall, scale, {206, 188, 166}, scene_.NextRng()));
     const int floor = scene_.AddPicture(PaintPlanks(ground, scale, scene_.NextRng()));
     const int ceiling = scene_.AddPicture(PaintCeiling(ground, scale, scene_.NextRng()));
-    const Eigen::Vector3d x(kLength_m, 0.0, 0.0);
-    const Eigen::Vector3d y(0.0, kWidth_m, 0.0);
-    const Eigen::Vector3d z(0.0, 0.0, kHeight_m);
+    const Eigen::Vector3d x(kLengthM, 0.0, 0.0);
+    const Eigen::Vector3d y(0.0, kWidthM, 0.0);
+    const Eigen::Vector3d z(0.0, 0.0, kHeightM);
     scene_.AddObject("room", kNoClass, Se3(), [&](MeshBuilder& mesh) {
       mesh.AddRectangle(y + z, x, -z, north);
       mesh.AddRectangle(x + y + z, -y, -z, east);
@@ -174,9 +174,9 @@ class Study {
 
   static Lighting Lights() {
     Lighting lighting;
-    constexpr double kLampHeight_m = kHeight_m - 0.05;
+    constexpr double kLampHeightM = kHeightM - 0.05;
     for (const double x : {1.6, 4.2}) {
-      lighting.lights.push_back({{x, 1.9, kLampHeight_m}, {0.0, 1.2, 0.0}, {0.5, 0.0, 0.0}, 5.0});
+      lighting.lights.push_back({{x, 1.9, kLampHeightM}, {0.0, 1.2, 0.0}, {0.5, 0.0, 0.0}, 5.0});
     }
     lighting.lights.push_back({{0.05, 1.65, 0.95}, {0.0, 1.3, 0.0}, {0.0, 0.0, 1.25}, 3.0});
     lighting.ambient = 0.32;

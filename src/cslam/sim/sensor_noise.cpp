@@ -105,13 +105,13 @@ double SquaredCosine(const cv::Mat& depth_m, const Camera& camera, cv::Point pix
 // Which pixels of a row the projector, to the right of the camera, lights: scanning from the
 // right, a pixel whose place in the projector's image was passed by a nearer one lies in shadow.
 std::vector<bool> LitPixels(const float* depth_m, int width, double focal_baseline_px_m) {
-  constexpr double kSlack_px = 0.5;
+  constexpr double kSlackPx = 0.5;
   std::vector<bool> lit(static_cast<std::size_t>(width), true);
   double leftmost_px = 1e9;
   for (int u = width - 1; u >= 0; --u) {
     if (depth_m[u] <= 0.0F) continue;
     const double projector_px = u - focal_baseline_px_m / static_cast<double>(depth_m[u]);
-    lit[static_cast<std::size_t>(u)] = projector_px <= leftmost_px + kSlack_px;
+    lit[static_cast<std::size_t>(u)] = projector_px <= leftmost_px + kSlackPx;
     leftmost_px = std::min(leftmost_px, projector_px);
   }
   return lit;

@@ -99,11 +99,11 @@ void WriteLists(const SimulatedSequence& sequence, const std::filesystem::path& 
   Trajectory trajectory;
   for (int i = 0; i < sequence.size(); ++i) {
     const std::string stamp = FormatStamp(sequence.stamp(i));
-    const std::string rgb_line = fmt::format("{} {}", stamp, ImageName(sequence, i, "rgb"));
-    const std::string depth_line = fmt::format("{} {}", stamp, ImageName(sequence, i, "depth"));
-    rgb += rgb_line + "\n";
-    depth += depth_line + "\n";
-    associations += rgb_line + " " + depth_line + "\n";
+    const std::string rgb_entry = fmt::format("{} {}", stamp, ImageName(sequence, i, "rgb"));
+    const std::string depth_entry = fmt::format("{} {}", stamp, ImageName(sequence, i, "depth"));
+    rgb += fmt::format("{}\n", rgb_entry);
+    depth += fmt::format("{}\n", depth_entry);
+    associations += fmt::format("{} {}\n", rgb_entry, depth_entry);
     trajectory.push_back({sequence.stamp(i), sequence.T_world_camera(i)});
   }
   WriteFileAtomically(folder / "rgb.txt", rgb);

@@ -17,8 +17,8 @@ namespace cslam {
 namespace {
 
 constexpr double kFocalPerWidth = 525.0 / 640.0;
-constexpr double kDemoDuration_s = 20.0;
-constexpr std::int64_t kFirstStamp_ns = 1'000'000'000;
+constexpr double kDemoDurationS = 20.0;
+constexpr std::int64_t kFirstStampNs = 1'000'000'000;
 
 int CountFrames(const SequenceOptions& options, double duration_s) {
   if (options.num_frames > 0) return options.num_frames;
@@ -37,11 +37,11 @@ SimulatedSequence::SimulatedSequence(Scene scene, CameraPath path, const Sequenc
 Stamp SimulatedSequence::stamp(int i) const {
   CSLAM_CHECK(i >= 0 && i < num_frames_, "frame {} of {}", i, num_frames_);
   // Whole microseconds: what six decimals in a list file can say.
-  return Stamp{kFirstStamp_ns + 1000 * std::llround(1e6 * i / options_.fps)};
+  return Stamp{kFirstStampNs + 1000 * std::llround(1e6 * i / options_.fps)};
 }
 
 Se3 SimulatedSequence::T_world_camera(int i) const {
-  return path_.T_world_camera(SecondsBetween(stamp(i), Stamp{kFirstStamp_ns}));
+  return path_.T_world_camera(SecondsBetween(stamp(i), Stamp{kFirstStampNs}));
 }
 
 RenderedView SimulatedSequence::Truth(int i) const {
@@ -89,9 +89,10 @@ CameraPath MakeDemoPath(std::uint64_t seed) {
       {3.40, 2.00, 1.32, 398, -14}, {3.10, 1.75, 1.35, 415, -14}, {2.90, 1.60, 1.35, 424, -14}};
   constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   std::vector<PathKey> keys;
+  keys.reserve(stops.size());
   for (const Stop& s : stops)
     keys.push_back({{s.x, s.y, s.z}, s.yaw_deg * kRadPerDeg, s.pitch_deg * kRadPerDeg});
-  return {keys, kDemoDuration_s, HandWobble{.seed = seed}};
+  return {keys, kDemoDurationS, HandWobble{.seed = seed}};
 }
 
 Camera MakeSimulatedCamera(int width, int height) {

@@ -63,8 +63,8 @@ std::vector<double> ReprojectionErrors(const SimulatedSequence& sequence, int i,
       const Eigen::Vector3d p = T_to_from * Unproject(sequence.camera(), {u, v}, z);
       if (p.z() <= 0.1) continue;
       const std::optional<double> seen = InterpolateDepth(to, Project(sequence.camera(), p));
-      constexpr double kHidden_m = 0.03;  // something stands before the point
-      if (seen && std::abs(*seen - p.z()) < kHidden_m) errors_m.push_back(std::abs(*seen - p.z()));
+      constexpr double kHiddenM = 0.03;  // something stands before the point
+      if (seen && std::abs(*seen - p.z()) < kHiddenM) errors_m.push_back(std::abs(*seen - p.z()));
     }
   }
   std::ranges::sort(errors_m);
