@@ -12,6 +12,32 @@
 
 #include "cli_common.h"
 #include "cmd_config.h"
+#include "cmd_dataset.h"
+#include "cmd_eval.h"
+#include "exit_codes.h"
+#include "parse_error.h"
+#include "version.h"
+
+// Until it is committed.
+#if __has_include("cmd_run.h")
+#include "cmd_run.h"
+#define CSLAM_HAS_RUN
+#endif
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <system_error>
+
+#include "cli_common.h"
+#include "cmd_config.h"
+#include "cmd_dataset.h"
+#include "cmd_eval.h"
 #include "exit_codes.h"
 #include "parse_error.h"
 #include "version.h"
@@ -71,12 +97,8 @@ int RunCommandLine(int argc, const char* const* argv) {
 #ifdef CSLAM_HAS_RUN
   AddRunCommand(root, exit_code);
 #endif
-#ifdef CSLAM_HAS_EVAL
   AddEvalCommand(root, exit_code);
-#endif
-#ifdef CSLAM_HAS_DATASET
   AddDatasetCommand(root, exit_code);
-#endif
   AddConfigCommand(root, exit_code);
   AddExamples(root, {"run ~/data/rgbd_dataset_freiburg1_desk --out runs/desk",
                      "eval ate ~/data/rgbd_dataset_freiburg1_desk runs/desk", "run --help"});
