@@ -24,38 +24,6 @@
 #define CSLAM_HAS_RUN
 #endif
 
-#include <CLI/CLI.hpp>
-#include <fmt/core.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
-
-#include <cstdio>
-#include <exception>
-#include <string>
-#include <system_error>
-
-#include "cli_common.h"
-#include "cmd_config.h"
-#include "cmd_dataset.h"
-#include "cmd_eval.h"
-#include "exit_codes.h"
-#include "parse_error.h"
-#include "version.h"
-
-// Until every command is written.
-#if __has_include("cmd_run.h")
-#include "cmd_run.h"
-#define CSLAM_HAS_RUN
-#endif
-#if __has_include("cmd_eval.h")
-#include "cmd_eval.h"
-#define CSLAM_HAS_EVAL
-#endif
-#if __has_include("cmd_dataset.h")
-#include "cmd_dataset.h"
-#define CSLAM_HAS_DATASET
-#endif
-
 namespace cslam {
 namespace {
 
