@@ -7,7 +7,9 @@
 
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "cli_common.h"
@@ -26,8 +28,6 @@
 
 namespace cslam {
 namespace {
-
-constexpr const char* kIssuesUrl = "https://github.com/changing-slam/changing-slam/issues";
 
 // stdout belongs to results, so the log goes to stderr.
 void ConfigureLogging(const std::string& level) {
@@ -78,9 +78,13 @@ int RunCommandLine(int argc, const char* const* argv) {
   return exit_code;
 }
 
-// Everything after the first line would hide the message from a reader and from scripts.
+// Further lines would hide the message from a reader and from scripts.
+std::string_view FirstLine(std::string_view text) {
+  return text.substr(0, text.find('\n'));
+}
+
 void PrintError(std::string_view kind, std::string_view message) {
-  fmt::print(stderr, "changing-slam: {}: {}\n", kind, message.substr(0, message.find('\n')));
+  fmt::print(stderr, "changing-slam: {}: {}\n", kind, FirstLine(message));
 }
 
 int RunGuarded(int argc, const char* const* argv) {
@@ -102,7 +106,7 @@ int RunGuarded(int argc, const char* const* argv) {
     PrintError("error", "out of memory");
   } catch (const std::exception& error) {
     PrintError("internal error",
-               fmt::format("{} (please report it: {})", error.what(), kIssuesUrl));
+               fmt::format("{}; please report it with the command line", FirstLine(error.what())));
   }
   return kExitRuntimeError;
 }
