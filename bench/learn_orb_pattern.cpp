@@ -22,7 +22,8 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace cslam::orb {
@@ -197,13 +198,13 @@ Outcomes Run(cv::Point a, cv::Point b, std::size_t index_a, std::size_t index_b,
 std::vector<Outcomes> RunCandidates(const std::vector<cv::Point>& disc,
                                     const std::vector<FeaturePair>& pairs) {
   Rng rng(1);
+  std::set<std::pair<std::size_t, std::size_t>> tried;
   std::vector<Outcomes> candidates;
   for (int i = 0; i < kNumCandidateTests; ++i) {
-    const std::size_t a = rng.Index(disc.size());
-    const std::size_t b = rng.Index(disc.size());
-    if (a != b) candidates.push_back(Run(disc[a], disc[b], a, b, pairs));
+    const auto [a, b] = std::minmax({rng.Index(disc.size()), rng.Index(disc.size())});
+    if (a == b || !tried.insert({a, b}).second) continue;
+    candidates.push_back(Run(disc[a], disc[b], a, b, pairs));
   }
-  std::ranges::stable_sort(candidates, std::greater{}, &Outcomes::gain);
   return candidates;
 }
 
@@ -222,6 +223,7 @@ double DifferenceCovariance(const Outcomes& a, const Outcomes& b, std::size_t co
 // exceeds that of equal ones by the most of its standard deviations.
 std::vector<TestPair> Choose(const std::vector<Outcomes>& candidates, std::size_t count) {
   std::vector<double> covariance(candidates.size(), 0.0);  // with the sum of the chosen ones
+  std::vector<bool> is_chosen(candidates.size(), false);
   std::vector<double> variance;
   for (const Outcomes& c : candidates)
     variance.push_back(DifferenceCovariance(c, c, count));
@@ -234,10 +236,11 @@ std::vector<TestPair> Choose(const std::vector<Outcomes>& candidates, std::size_
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const double ratio =
           (gap + candidates[i].gain) / std::sqrt(sum_variance + 2.0 * covariance[i] + variance[i]);
-      if (ratio <= best_ratio) continue;
+      if (is_chosen[i] || ratio <= best_ratio) continue;
       best = i;
       best_ratio = ratio;
     }
+    is_chosen[best] = true;
     gap += candidates[best].gain;
     sum_variance += 2.0 * covariance[best] + variance[best];
     tests.push_back(candidates[best].test);
@@ -262,6 +265,10 @@ int main() {
   const std::vector<FeaturePair> pairs = MakePairs(disc);
   fmt::print(stderr, "{} pairs of features\n", pairs.size());
   const std::vector<Outcomes> candidates = RunCandidates(disc, pairs);
+  fmt::print(
+      "// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors\n"
+      "// SPDX-License-Identifier: Apache-2.0\n"
+      "// Printed by bench/learn_orb_pattern.cpp, the most telling tests first.\n");
   for (const TestPair& t : Choose(candidates, pairs.size())) {
     fmt::print("{{{}, {}, {}, {}}},\n", t.ax, t.ay, t.bx, t.by);
   }

