@@ -3,10 +3,10 @@
 //
 // Makes the table of binary tests in src/cslam/vision/orb_pattern.inc (printed on stdout).
 //
-// As in Rublee et al. (ORB, ICCV 2011) the tests are chosen greedily for little correlation with
-// those chosen before; but they come in the order of how well they tell corners apart, which is
-// measured on pairs of views of the same synthetic scenes ("dead leaves", whose statistics are
-// close to those of natural images): P(bits differ | other corners) - P(bits differ | same corner).
+// As in Rublee et al. (ORB, ICCV 2011) the tests are chosen greedily from many random ones. Here
+// each choice makes the most of one figure: by how many standard deviations the Hamming distance
+// of different corners exceeds that of equal ones. Both are measured on pairs of views of synthetic
+// scenes ("dead leaves", whose statistics are close to those of natural images).
 #include "cslam/util/random.h"
 #include "cslam/vision/orb_distribute.h"
 #include "cslam/vision/orb_kernels.h"
