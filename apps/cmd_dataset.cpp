@@ -193,7 +193,7 @@ int RunCheck(const DatasetArguments& arguments) {
 }
 
 std::shared_ptr<DatasetArguments> AddArguments(CLI::App& app, const char* sample_help) {
-  const auto arguments = std::make_shared<DatasetArguments>();
+  auto arguments = std::make_shared<DatasetArguments>();
   app.add_option("path", arguments->folder, "Folder of the sequence")
       ->type_name("FOLDER")
       ->required();

@@ -139,7 +139,7 @@ CameraConfig MakePreset(std::string name, const Camera& camera, double depth_uni
           .approximate = approximate};
 }
 
-// Rounds a camera's numbers the way their publishers print them; see docs/datasets.md.
+// The numbers as their publishers print them; see docs/datasets.md.
 std::vector<CameraConfig> MakePresets() {
   const Camera fr1{.fx = 517.3,
                    .fy = 516.5,
@@ -258,8 +258,8 @@ void CheckDepthScale(double units_per_m) {
 }  // namespace
 
 const std::vector<CameraConfig>& CameraPresets() {
-  static const std::vector<CameraConfig> presets = MakePresets();
-  return presets;
+  static const std::vector<CameraConfig> kPresets = MakePresets();
+  return kPresets;
 }
 
 std::string DescribeCameraPresets() {

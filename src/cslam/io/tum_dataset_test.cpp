@@ -21,17 +21,13 @@ using testing::HasSubstr;
 constexpr int kWidth = TestSequence::kWidth;
 constexpr int kHeight = TestSequence::kHeight;
 
-class TumDatasetTest : public testing::Test {
- protected:
-  std::string OpenError(const DatasetOptions& options = {}) const {
-    return MessageOf([&] { OpenDataset(sequence_.path(), options); });
-  }
+std::string OpenError(const TestSequence& sequence, const DatasetOptions& options = {}) {
+  return MessageOf([&] { OpenDataset(sequence.path(), options); });
+}
 
-  TestSequence sequence_{4};
-};
-
-TEST_F(TumDatasetTest, LoadsGrayColourAndDepthInMetres) {
-  const auto dataset = OpenDataset(sequence_.path());
+TEST(TumDataset, LoadsGrayColourAndDepthInMetres) {
+  const TestSequence sequence(4);
+  const auto dataset = OpenDataset(sequence.path());
   ASSERT_EQ(dataset->size(), 4U);
   const LoadResult result = dataset->Load(2);
   ASSERT_TRUE(result.frame.has_value()) << result.problem;
@@ -47,56 +43,60 @@ TEST_F(TumDatasetTest, LoadsGrayColourAndDepthInMetres) {
   EXPECT_EQ(dataset->camera().source, "camera.yaml in the folder");
 }
 
-TEST_F(TumDatasetTest, PlaysAPartAndKeepsTheIds) {
+TEST(TumDataset, PlaysAPartAndKeepsTheIds) {
+  const TestSequence sequence(4);
   const auto dataset =
-      OpenDataset(sequence_.path(), {.camera = {}, .from = 1, .frames = 2, .is_strict = false});
+      OpenDataset(sequence.path(), {.camera = {}, .from = 1, .frames = 2, .is_strict = false});
   ASSERT_EQ(dataset->size(), 2U);
   EXPECT_EQ(dataset->Load(0).frame->id, FrameId(1));
   EXPECT_EQ(dataset->stamp(1), Stamp{100'000'000});
-  EXPECT_EQ(
-      OpenDataset(sequence_.path(), {.camera = {}, .from = 3, .frames = 9, .is_strict = false})
-          ->size(),
-      1U);
+  EXPECT_EQ(OpenDataset(sequence.path(), {.camera = {}, .from = 3, .frames = 9, .is_strict = false})
+                ->size(),
+            1U);
 }
 
-TEST_F(TumDatasetTest, RefusesAPartWithoutFrames) {
-  EXPECT_THAT(OpenError({.camera = {}, .from = 4, .frames = {}, .is_strict = false}),
+TEST(TumDataset, RefusesAPartWithoutFrames) {
+  const TestSequence sequence(4);
+  EXPECT_THAT(OpenError(sequence, {.camera = {}, .from = 4, .frames = {}, .is_strict = false}),
               HasSubstr("has 4 frames (0 to 3); there is nothing from frame 4 on"));
-  EXPECT_THAT(OpenError({.camera = {}, .from = 0, .frames = 0, .is_strict = false}),
+  EXPECT_THAT(OpenError(sequence, {.camera = {}, .from = 0, .frames = 0, .is_strict = false}),
               HasSubstr("0 frames were asked for"));
 }
 
-TEST_F(TumDatasetTest, OverridesTheDepthScale) {
+TEST(TumDataset, OverridesTheDepthScale) {
+  const TestSequence sequence(4);
   DatasetOptions options;
   options.camera.depth_units_per_m = 5000.0;
-  EXPECT_EQ(OpenDataset(sequence_.path(), options)->Load(0).frame->depth_m.at<float>(0, 0), 0.3F);
+  EXPECT_EQ(OpenDataset(sequence.path(), options)->Load(0).frame->depth_m.at<float>(0, 0), 0.3F);
 }
 
-TEST_F(TumDatasetTest, SkipsAMissingImageWithItsName) {
-  std::filesystem::remove(sequence_.Depth(1));
-  const auto dataset = OpenDataset(sequence_.path());
+TEST(TumDataset, SkipsAMissingImageWithItsName) {
+  const TestSequence sequence(4);
+  std::filesystem::remove(sequence.Depth(1));
+  const auto dataset = OpenDataset(sequence.path());
   const LoadResult result = dataset->Load(1);
   EXPECT_FALSE(result.frame.has_value());
   EXPECT_EQ(result.fault, FrameFault::kMissing);
   EXPECT_THAT(result.problem,
-              AllOf(HasSubstr(sequence_.Depth(1).string()), HasSubstr("does not exist")));
+              AllOf(HasSubstr(sequence.Depth(1).string()), HasSubstr("does not exist")));
   EXPECT_TRUE(dataset->Load(2).frame.has_value());
 }
 
-TEST_F(TumDatasetTest, SkipsATruncatedImageWithTheReason) {
-  std::filesystem::resize_file(sequence_.Color(1),
-                               std::filesystem::file_size(sequence_.Color(1)) - 20);
-  const LoadResult result = OpenDataset(sequence_.path())->Load(1);
+TEST(TumDataset, SkipsATruncatedImageWithTheReason) {
+  const TestSequence sequence(4);
+  std::filesystem::resize_file(sequence.Color(1),
+                               std::filesystem::file_size(sequence.Color(1)) - 20);
+  const LoadResult result = OpenDataset(sequence.path())->Load(1);
   EXPECT_EQ(result.fault, FrameFault::kUnreadable);
-  EXPECT_THAT(result.problem,
-              AllOf(HasSubstr(sequence_.Color(1).string()), HasSubstr("truncated")));
+  EXPECT_THAT(result.problem, AllOf(HasSubstr(sequence.Color(1).string()), HasSubstr("truncated")));
 }
 
-TEST_F(TumDatasetTest, SkipsAnImageOfWrongTypeOrSize) {
-  WritePng(sequence_.Depth(1), cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(9)));
-  sequence_.WriteDepth(2, kWidth, kHeight / 2, 9);
-  sequence_.WriteColor(3, kWidth / 2, kHeight);
-  const auto dataset = OpenDataset(sequence_.path());
+TEST(TumDataset, SkipsAnImageOfWrongTypeOrSize) {
+  const TestSequence sequence(4);
+  WritePng(sequence.Depth(1), cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(9)));
+  sequence.WriteDepth(2, kWidth, kHeight / 2, 9);
+  sequence.WriteColor(3, kWidth / 2, kHeight);
+  const auto dataset = OpenDataset(sequence.path());
   EXPECT_EQ(dataset->Load(1).fault, FrameFault::kUnreadable);
   EXPECT_THAT(dataset->Load(1).problem, HasSubstr("expected 16-bit"));
   EXPECT_EQ(dataset->Load(2).fault, FrameFault::kWrongSize);
@@ -104,48 +104,55 @@ TEST_F(TumDatasetTest, SkipsAnImageOfWrongTypeOrSize) {
   EXPECT_EQ(dataset->Load(3).fault, FrameFault::kWrongSize);
 }
 
-TEST_F(TumDatasetTest, StopsAtAnUnreadableFrameWhenStrict) {
-  std::filesystem::remove(sequence_.Depth(1));
+TEST(TumDataset, StopsAtAnUnreadableFrameWhenStrict) {
+  const TestSequence sequence(4);
+  std::filesystem::remove(sequence.Depth(1));
   const auto dataset =
-      OpenDataset(sequence_.path(), {.camera = {}, .from = 0, .frames = {}, .is_strict = true});
+      OpenDataset(sequence.path(), {.camera = {}, .from = 0, .frames = {}, .is_strict = true});
   EXPECT_TRUE(dataset->Load(0).frame.has_value());
   EXPECT_THAT(MessageOf([&] { dataset->Load(1); }),
               AllOf(HasSubstr("frame 1:"), HasSubstr("does not exist"), HasSubstr("--strict")));
 }
 
-TEST_F(TumDatasetTest, LoadsDepthWithoutAnyReading) {
-  sequence_.WriteDepth(1, kWidth, kHeight, 0);
-  const LoadResult result = OpenDataset(sequence_.path())->Load(1);
+TEST(TumDataset, LoadsDepthWithoutAnyReading) {
+  const TestSequence sequence(4);
+  sequence.WriteDepth(1, kWidth, kHeight, 0);
+  const LoadResult result = OpenDataset(sequence.path())->Load(1);
   ASSERT_TRUE(result.frame.has_value());
   EXPECT_EQ(cv::countNonZero(result.frame->depth_m), 0);
 }
 
-TEST_F(TumDatasetTest, NamesBothSizesWhenTheCameraIsOfAnother) {
+TEST(TumDataset, NamesBothSizesWhenTheCameraIsOfAnother) {
+  const TestSequence sequence(4);
   DatasetOptions options;
   options.camera.camera = "tum_fr1";
-  EXPECT_THAT(OpenError(options), AllOf(HasSubstr("is 64x48"), HasSubstr("(tum_fr1) is 640x480"),
-                                        HasSubstr("--camera")));
+  EXPECT_THAT(
+      OpenError(sequence, options),
+      AllOf(HasSubstr("is 64x48"), HasSubstr("(tum_fr1) is 640x480"), HasSubstr("--camera")));
 }
 
-TEST_F(TumDatasetTest, RefusesASequenceOfWhichNothingCanBeRead) {
-  std::filesystem::remove_all(sequence_.path() / "depth");
-  EXPECT_THAT(OpenError(), AllOf(HasSubstr("none of the 4 frames can be read"),
-                                 HasSubstr(sequence_.Depth(0).string())));
+TEST(TumDataset, RefusesASequenceOfWhichNothingCanBeRead) {
+  const TestSequence sequence(4);
+  std::filesystem::remove_all(sequence.path() / "depth");
+  EXPECT_THAT(OpenError(sequence), AllOf(HasSubstr("none of the 4 frames can be read"),
+                                         HasSubstr(sequence.Depth(0).string())));
 }
 
-TEST_F(TumDatasetTest, OpensASequenceWhoseFirstFramesAreBad) {
-  std::filesystem::remove(sequence_.Color(0));
-  sequence_.WriteColor(1, kWidth / 2, kHeight);
-  EXPECT_EQ(OpenDataset(sequence_.path())->size(), 4U);
+TEST(TumDataset, OpensASequenceWhoseFirstFramesAreBad) {
+  const TestSequence sequence(4);
+  std::filesystem::remove(sequence.Color(0));
+  sequence.WriteColor(1, kWidth / 2, kHeight);
+  EXPECT_EQ(OpenDataset(sequence.path())->size(), 4U);
 }
 
-TEST_F(TumDatasetTest, ReportsGroundTruth) {
-  EXPECT_EQ(OpenDataset(sequence_.path())->ground_truth(), std::nullopt);
-  sequence_.folder().Write("groundtruth_camera.txt", "");
-  EXPECT_EQ(OpenDataset(sequence_.path())->ground_truth(),
-            sequence_.path() / "groundtruth_camera.txt");
-  sequence_.folder().Write("groundtruth.txt", "");
-  EXPECT_EQ(OpenDataset(sequence_.path())->ground_truth(), sequence_.path() / "groundtruth.txt");
+TEST(TumDataset, ReportsGroundTruth) {
+  const TestSequence sequence(4);
+  EXPECT_EQ(OpenDataset(sequence.path())->ground_truth(), std::nullopt);
+  sequence.folder().Write("groundtruth_camera.txt", "");
+  EXPECT_EQ(OpenDataset(sequence.path())->ground_truth(),
+            sequence.path() / "groundtruth_camera.txt");
+  sequence.folder().Write("groundtruth.txt", "");
+  EXPECT_EQ(OpenDataset(sequence.path())->ground_truth(), sequence.path() / "groundtruth.txt");
 }
 
 TEST(OpenDataset, SaysWhatIsWrongWithAPlaceThatIsNoDataset) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -96,8 +97,9 @@ TEST(Channel, NeverHoldsMoreThanItsCapacityWhileAWriterIsFaster) {
 TEST(Channel, DeliversEachItemOnceToManyReadersFromManyWriters) {
   constexpr int kThreads = 3;
   constexpr int kCount = 500;
+  constexpr std::size_t kTotal = std::size_t{kThreads} * kCount;
   Channel<int> channel(4);
-  std::vector<std::atomic<int>> seen(kThreads * kCount);
+  std::vector<std::atomic<int>> seen(kTotal);
   std::vector<std::thread> writers;
   std::vector<std::thread> readers;
   for (int t = 0; t < kThreads; ++t) {
