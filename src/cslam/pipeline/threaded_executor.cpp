@@ -29,7 +29,7 @@ struct FrameMessage {
 };
 
 using TrackerInput = std::variant<FrameMessage, ResetRequest>;
-using MapperInput = std::variant<KeyframeProposal, ResetRequest>;
+using MapperInput = std::variant<std::unique_ptr<const KeyframeProposal>, ResetRequest>;
 using Event = std::variant<TrackingResult, MapUpdate, ResetRequest>;
 
 template <typename... Visitors>
@@ -114,7 +114,7 @@ void Slam::ThreadedExecutor::Shared::RunTracker() {
     TrackerOutput output = tracker.Process(*message.frame, latest.Get());
     if (output.proposal) {
       in_flight.Enter();
-      proposals.Push(std::move(*output.proposal));
+      proposals.Push(std::make_unique<const KeyframeProposal>(std::move(*output.proposal)));
     }
     if (message.answer) message.answer->set_value(output.result);
     events.Push(std::move(output.result));
@@ -129,7 +129,7 @@ void Slam::ThreadedExecutor::Shared::RunMapper() {
       mapper.Reset();
       latest.Publish(nullptr);
     } else {
-      const MapUpdate inserted = mapper.Insert(std::get<KeyframeProposal>(*input));
+      const MapUpdate inserted = mapper.Insert(*std::get<0>(*input));
       Publish(inserted);
       if (inserted.step == MapUpdate::Step::kInserted) {
         Publish(mapper.Refine([this] { return proposals.HasWaiting(); }));

@@ -98,13 +98,6 @@ LocalMap SelectLocalMap(const MapView& map, std::span<const PointId> matched, Ke
   return local;
 }
 
-int PredictOctave(const MapPoint& point, double distance_m, const MeasurementModel& model) {
-  const double ratio = static_cast<double>(point.max_distance_m) / distance_m;
-  const auto& scales = model.level_scales();
-  const auto level = std::lower_bound(scales.begin(), scales.end(), ratio * (1.0 - 1e-9));
-  return std::min(static_cast<int>(level - scales.begin()), model.num_levels() - 1);
-}
-
 std::vector<ExpectedPoint> ExpectPoints(const MapView& map, std::span<const PointId> points,
                                         const Se3& T_world_camera, const Camera& camera,
                                         const ImageBounds& bounds, double baseline_m,
@@ -132,7 +125,7 @@ std::vector<ExpectedPoint> ExpectPoints(const MapView& map, std::span<const Poin
     const double cosine = offset.dot(point->normal.cast<double>()) / distance;
     if (cosine < min_cosine) continue;
 
-    const int octave = PredictOctave(*point, distance, model);
+    const int octave = model.PredictOctave(static_cast<double>(point->max_distance_m) / distance);
     const double radius =
         cosine > kFrontalCosine ? options.radius_frontal_px : options.radius_oblique_px;
     ExpectedPoint e;

@@ -37,7 +37,4 @@ std::vector<ExpectedPoint> ExpectPoints(const MapView& map, std::span<const Poin
                                         const MeasurementModel& model,
                                         const LocalMapOptions& options);
 
-// The pyramid level at which a point appears from distance_m.
-int PredictOctave(const MapPoint& point, double distance_m, const MeasurementModel& model);
-
 }  // namespace cslam

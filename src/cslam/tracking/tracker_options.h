@@ -12,7 +12,7 @@ class OptionList;
 
 struct KeyframePolicyOptions {
   int min_inliers = 15;
-  int max_interval_frames = 30;
+  int max_interval_frames = 10;
   double reference_ratio = 0.75;
   double reference_ratio_first = 0.4;
   int near_tracked_low = 100;
@@ -37,7 +37,9 @@ void Describe(OptionList& list, LocalMapOptions& options);
 struct TrackerOptions {
   OrbOptions orb;
   DepthOptions depth;
-  PoseOptimizerOptions pose;
+  // Gates four times the 95 % quantiles: motion blur shifts most corners of a frame by more than
+  // the nominal sigma, and a pose from many is better than one from the few that moved least.
+  PoseOptimizerOptions pose{.chi2_mono = 4.0 * 5.991, .chi2_depth = 4.0 * 7.815};
   KeyframePolicyOptions keyframe;
   LocalMapOptions local_map;
 

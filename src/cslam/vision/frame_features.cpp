@@ -12,15 +12,32 @@
 namespace cslam {
 namespace {
 
-// Depth at the nearest pixel; 0 where there is none or it is out of range.
+// A reading is usable when it is finite and in range.
+bool IsUsableDepth(float z, const DepthOptions& options) {
+  return std::isfinite(z) && z >= static_cast<float>(options.min_depth_m) &&
+         z <= static_cast<float>(options.max_depth_m);
+}
+
+// Depth at the nearest pixel; 0 where there is none, it is out of range, or the surface breaks
+// off within edge_radius_px: colour and depth are not aligned well enough to tell its two sides.
 float ReadDepth(const cv::Mat& depth_m, const Corner& corner, const DepthOptions& options) {
   if (depth_m.empty()) return 0.0F;
   const int u = std::clamp(static_cast<int>(std::lround(corner.u)), 0, depth_m.cols - 1);
   const int v = std::clamp(static_cast<int>(std::lround(corner.v)), 0, depth_m.rows - 1);
   const float z = depth_m.at<float>(v, u);
-  const bool usable = std::isfinite(z) && z >= static_cast<float>(options.min_depth_m) &&
-                      z <= static_cast<float>(options.max_depth_m);
-  return usable ? z : 0.0F;
+  if (!IsUsableDepth(z, options)) return 0.0F;
+  const int r = options.edge_radius_px;
+  if (r == 0) return z;
+  const float max_step = static_cast<float>(options.max_edge_ratio) * z;
+  for (int dv = -r; dv <= r; dv += r) {
+    for (int du = -r; du <= r; du += r) {
+      const int nu = std::clamp(u + du, 0, depth_m.cols - 1);
+      const int nv = std::clamp(v + dv, 0, depth_m.rows - 1);
+      const float neighbour = depth_m.at<float>(nv, nu);
+      if (IsUsableDepth(neighbour, options) && std::abs(neighbour - z) > max_step) return 0.0F;
+    }
+  }
+  return z;
 }
 
 }  // namespace
@@ -62,6 +79,10 @@ void Describe(OptionList& list, DepthOptions& o) {
            "Points nearer than this are made from one view, farther ones by triangulation.");
   list.Add("disparity_sigma", o.disparity_sigma_px, {0.01, 100.0}, "px",
            "Standard deviation of a depth reading, as disparity, at pyramid level 0.");
+  list.Add("edge_radius", o.edge_radius_px, {0, 50}, "px",
+           "A reading is dropped when the surface breaks off within this distance; 0: never.");
+  list.Add("max_edge_ratio", o.max_edge_ratio, {0.001, 10.0}, "",
+           "A surface breaks off where neighbouring readings differ by this share of the depth.");
   list.Add("min_depth", o.min_depth_m, {0.0, 10.0}, "m", "Nearer depth readings are dropped.");
   list.Add("max_depth", o.max_depth_m, {0.5, 1000.0}, "m", "Farther depth readings are dropped.");
 }

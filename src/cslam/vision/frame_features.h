@@ -92,8 +92,10 @@ struct DepthOptions {
   double baseline_m = 0.08;         // of the virtual stereo pair that depth is expressed in
   double near_baselines = 40.0;     // up to this many baselines one view makes a point
   double disparity_sigma_px = 1.0;  // of a reading's disparity, at pyramid level 0
-  double min_depth_m = 0.1;         // readings below are dropped
-  double max_depth_m = 20.0;        // readings above are dropped
+  int edge_radius_px = 4;
+  double max_edge_ratio = 0.1;
+  double min_depth_m = 0.1;   // readings below are dropped
+  double max_depth_m = 20.0;  // readings above are dropped
 
   double near_depth_m() const { return baseline_m * near_baselines; }
 };

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace cslam {
@@ -17,6 +20,14 @@ class MeasurementModel {
   const std::vector<double>& level_scales() const { return level_scales_; }
   int num_levels() const { return static_cast<int>(level_scales_.size()); }
   double scale(int octave) const { return level_scales_[static_cast<std::size_t>(octave)]; }
+
+  // The level at which a point shows whose largest recognisable distance is ratio times the
+  // present one.
+  int PredictOctave(double ratio) const {
+    const auto level =
+        std::lower_bound(level_scales_.begin(), level_scales_.end(), ratio * (1.0 - 1e-9));
+    return std::min(static_cast<int>(level - level_scales_.begin()), num_levels() - 1);
+  }
 
   // 1 / sigma^2 of u and v, px^-2.
   double information_px(int octave) const { return 1.0 / (scale(octave) * scale(octave)); }
