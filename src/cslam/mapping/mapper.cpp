@@ -85,7 +85,7 @@ MapUpdate Mapper::Insert(const KeyframeProposal& proposal) {
   newest_ = proposal.id;
 
   update.points_created = static_cast<int>(created.size());
-  update.times.push_back({"insert", watch.LapMs()});
+  AddLap(update.times, "insert", watch);
   return Publish(std::move(update));
 }
 
@@ -104,22 +104,22 @@ MapUpdate Mapper::Refine(const std::function<bool()>& should_stop) {
                                          options_.triangulation);
   on_probation_.insert(on_probation_.end(), created.begin(), created.end());
   update.points_created = static_cast<int>(created.size());
-  update.times.push_back({"triangulate", watch.LapMs()});
+  AddLap(update.times, "triangulate", watch);
 
   update.points_fused = FuseWithNeighbours(map_, newest_, camera_, bounds_, depth_, model_,
                                            options_.min_shared_points, options_.fusion);
-  update.times.push_back({"fuse", watch.LapMs()});
+  AddLap(update.times, "fuse", watch);
 
   const LocalBaReport ba =
       AdjustLocally(map_, newest_, camera_, depth_, model_, options_.min_shared_points,
                     options_.local_ba, should_stop);
   update.ba_iterations = ba.iterations;
   update.ba_was_stopped = ba.was_stopped;
-  update.times.push_back({"local_ba", watch.LapMs()});
+  AddLap(update.times, "local_ba", watch);
 
   update.keyframes_culled =
       CullRedundantKeyframes(map_, newest_, depth_, options_.min_shared_points, options_.culling);
-  update.times.push_back({"cull", watch.LapMs()});
+  AddLap(update.times, "cull", watch);
   return Publish(std::move(update));
 }
 
@@ -134,7 +134,7 @@ MapUpdate Mapper::Publish(MapUpdate update) {
   snapshot->proposals_applied = proposals_applied_;
   snapshot->map = map_.Snapshot();
   update.snapshot = std::move(snapshot);
-  update.times.push_back({"publish", watch.LapMs()});
+  AddLap(update.times, "publish", watch);
   return update;
 }
 

@@ -18,6 +18,11 @@ const char* ToString(TrackingState state) {
   return "unknown";
 }
 
+void AddLap(std::vector<StageTime>& times, const char* stage, Stopwatch& watch) {
+  const LapTime lap = watch.Lap();
+  times.push_back({.stage = stage, .ms = lap.wall_ms, .cpu_ms = lap.cpu_ms});
+}
+
 const char* ToString(KeyframeReason reason) {
   switch (reason) {
     case KeyframeReason::kNotNeeded:

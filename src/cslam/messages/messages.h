@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/map/map_view.h"
+#include "cslam/util/stopwatch.h"
 #include "cslam/vision/rgbd_frame.h"
 
 #include <array>
@@ -65,11 +66,15 @@ struct MapSnapshot {
   MapView map;
 };
 
-// Wall-clock time of one step of a stage.
+// What one step of a stage took.
 struct StageTime {
   const char* stage = "";  // a string literal
-  double ms = 0.0;
+  double ms = 0.0;         // by the clock on the wall
+  double cpu_ms = 0.0;     // of its thread's own time, whatever else the machine was doing
 };
+
+// Notes the time since the last lap as that of the named step, and starts the next lap.
+void AddLap(std::vector<StageTime>& times, const char* stage, Stopwatch& watch);
 
 // tracker -> sinks: one per input frame.
 struct TrackingResult {

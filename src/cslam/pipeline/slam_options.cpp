@@ -9,8 +9,10 @@ namespace cslam {
 void Describe(OptionList& list, PipelineOptions& o) {
   list.Add("frame_queue", o.frame_queue, {1, 100}, "frames",
            "Frames that may wait for the tracker; at sensor rate the oldest is dropped then.");
-  list.Add("max_proposals_ahead", o.max_proposals_ahead, {1, 100}, "keyframes",
-           "At --rate max the source waits while more proposals than this are in flight.");
+  list.Add(
+      "max_proposals_ahead", o.max_proposals_ahead, {0, 100}, "keyframes",
+      "At --rate max the source waits while more proposals than this are in flight; with 0 the "
+      "mapper finishes nearly every bundle adjustment, as it does at sensor rate.");
   list.Add("mapper_nice", o.mapper_nice, {0, 19}, "",
            "How much lower the mapping thread's priority is than the tracking thread's.");
   list.Add("library_threads", o.library_threads, {1, 64}, "threads",

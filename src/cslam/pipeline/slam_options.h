@@ -11,7 +11,7 @@ class OptionList;
 
 struct PipelineOptions {
   int frame_queue = 2;
-  int max_proposals_ahead = 1;
+  int max_proposals_ahead = 0;
   int mapper_nice = 5;
   int library_threads = 1;
 };

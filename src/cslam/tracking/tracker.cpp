@@ -81,12 +81,12 @@ TrackerOutput Tracker::Process(const RgbdFrame& frame,
 std::shared_ptr<KeyframeData> Tracker::Observe(const RgbdFrame& frame, CurrentFrame& current) {
   Stopwatch watch;
   OrbFeatures orb = extractor_.Extract(frame.gray);
-  current.result.times.push_back({"extract", watch.LapMs()});
+  AddLap(current.result.times, "extract", watch);
   auto data = std::make_shared<KeyframeData>();
   data->frame = frame.id;
   data->stamp = frame.stamp;
   data->features = MeasureFeatures(std::move(orb), frame, camera_, bounds_, options_.depth);
-  current.result.times.push_back({"measure", watch.LapMs()});
+  AddLap(current.result.times, "measure", watch);
 
   current.frame = &frame;
   current.result.frame = frame.id;
@@ -106,14 +106,14 @@ void Tracker::TrackFrame(CurrentFrame& current) {
   }
   Stopwatch watch;
   const bool found = EstimateFromMotion(current) || EstimateFromReference(current);
-  current.result.times.push_back({"predict", watch.LapMs()});
+  AddLap(current.result.times, "predict", watch);
   if (!found) {
     FailToTrack(current, fmt::format("{} inliers < {} with the last frame",
                                      current.estimate.num_inliers(), options_.min_first_inliers));
     return;
   }
   RefineWithLocalMap(current);
-  current.result.times.push_back({"local_map", watch.LapMs()});
+  AddLap(current.result.times, "local_map", watch);
   const int inliers = current.estimate.num_inliers();
   if (inliers < options_.min_inliers) {
     FailToTrack(current, fmt::format("{} inliers < {}", inliers, options_.min_inliers));
