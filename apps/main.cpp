@@ -16,15 +16,10 @@
 #include "cmd_config.h"
 #include "cmd_dataset.h"
 #include "cmd_eval.h"
+#include "cmd_run.h"
 #include "exit_codes.h"
 #include "parse_error.h"
 #include "version.h"
-
-// Until it is committed.
-#if __has_include("cmd_run.h")
-#include "cmd_run.h"
-#define CSLAM_HAS_RUN
-#endif
 
 namespace cslam {
 namespace {
@@ -62,9 +57,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   root.fallthrough();
   root.require_subcommand(1);
   AddGlobalArguments(root, arguments);
-#ifdef CSLAM_HAS_RUN
   AddRunCommand(root, exit_code);
-#endif
   AddEvalCommand(root, exit_code);
   AddDatasetCommand(root, exit_code);
   AddConfigCommand(root, exit_code);

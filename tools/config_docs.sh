@@ -11,6 +11,6 @@ if [ "${1:-}" = --check ]; then
     exit 1
   fi
 else
-  "$1" config --markdown > "$root/docs/config.md.part"
-  mv "$root/docs/config.md.part" "$root/docs/config.md"
+  page=$("$1" config --markdown)
+  printf '%s\n' "$page" > "$root/docs/config.md"
 fi
