@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "cli_common.h"
+#include "cmd_render.h"
 #include "exit_codes.h"
 
 namespace cslam {
@@ -210,10 +211,11 @@ std::shared_ptr<DatasetArguments> AddArguments(CLI::App& app, const char* sample
 }  // namespace
 
 CLI::App* AddDatasetCommand(CLI::App& root, int& exit_code) {
-  CLI::App* const app = root.add_subcommand("dataset", "Describe or check a recorded sequence");
+  CLI::App* const app = root.add_subcommand("dataset", "Describe, check or render a sequence");
   app->require_subcommand(1);
   AddExamples(*app, {"dataset info ~/data/rgbd_dataset_freiburg1_desk",
-                     "dataset check ~/data/rgbd_dataset_freiburg1_desk"});
+                     "dataset check ~/data/rgbd_dataset_freiburg1_desk",
+                     "dataset render demo --out data/demo"});
 
   CLI::App* const info = app->add_subcommand(
       "info", "Tell frames, times, camera, ground truth and depth of a sequence");
@@ -230,6 +232,8 @@ CLI::App* AddDatasetCommand(CLI::App& root, int& exit_code) {
   AddExamples(*check, {"dataset check ~/data/rgbd_dataset_freiburg1_desk",
                        "dataset check my_recording --camera d435i --sample 50"});
   check->callback([check_arguments, &exit_code] { exit_code = RunCheck(*check_arguments); });
+
+  AddRenderCommands(*app, exit_code);
   return app;
 }
 

@@ -8,7 +8,7 @@ class App;
 
 namespace cslam {
 
-// Adds "dataset info" and "dataset check". exit_code must live until the command line is parsed.
+// Adds "dataset" and what is below it. exit_code must live until the command line is parsed.
 CLI::App* AddDatasetCommand(CLI::App& root, int& exit_code);
 
 }  // namespace cslam

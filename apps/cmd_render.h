@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace cslam {
+
+// Adds "render" and "list" below "dataset". exit_code must live until the command line is parsed.
+void AddRenderCommands(CLI::App& dataset, int& exit_code);
+
+}  // namespace cslam
