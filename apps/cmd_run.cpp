@@ -2,108 +2,189 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cmd_run.h"
 
-#include "cslam/eval/ate.h"
-#include "cslam/eval/rpe.h"
-#include "cslam/io/trajectory_file.h"
-#include "cslam/run/sequence_player.h"
+#include "cslam/run/progress.h"
+#include "cslam/run/run_summary.h"
+#include "cslam/run/run_writer.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
-#include <map>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <ctime>
 #include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "cli_common.h"
 #include "exit_codes.h"
 #include "interrupt.h"
+#include "version.h"
 
 namespace cslam {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct RunCommand {
-  std::filesystem::path sequence;
+  fs::path sequence;
+  fs::path out;  // empty: runs/<sequence>-<date>-<time>
   ConfigArguments config;
-  bool deterministic = false;
-  std::string rate = "max";
+  CameraChoice camera;
   std::size_t from = 0;
-  std::size_t frames = 0;
+  std::optional<std::size_t> frames;
+  std::string rate = "max";
+  bool is_deterministic = false;
+  bool is_strict = false;
 };
 
-class Collect : public OutputSink {
- public:
-  void OnFrame(const TrackingResult& r) override {
-    for (auto& t : r.times)
-      times[t.stage].push_back(t.ms);
-    if (r.state != TrackingState::kTracking)
-      fmt::print(stderr, "{} {} {}\n", r.frame.value(), ToString(r.state), r.reason);
-    reasons[ToString(r.keyframe_reason)]++;
-    inliers += r.num_inliers;
-    matches += r.num_map_matches;
-    kps += r.num_keypoints;
-    ++n;
-    if (getenv("CSLAM_DUMP"))
-      fmt::print(stderr, "{} inl {} match {} kp {} {} kf {}\n", r.frame.value(), r.num_inliers,
-                 r.num_map_matches, r.num_keypoints, ToString(r.keyframe_reason),
-                 r.reference.value());
+RunSettings SettingsOf(const RunCommand& command) {
+  RunSettings settings;
+  if (command.rate == "sensor") settings.rate = PlayRate::kSensor;
+  if (command.is_deterministic) settings.execution = Execution::kInline;
+  if (command.is_deterministic && settings.rate == PlayRate::kSensor) {
+    throw UsageError(
+        "--deterministic and --rate sensor exclude each other: which frames are dropped depends "
+        "on the clock");
   }
-  void OnMap(const MapUpdate& u) override {
-    for (auto& t : u.times)
-      times[t.stage].push_back(t.ms);
-    stopped += u.ba_was_stopped;
-    iterations += u.ba_iterations;
-    culled += u.keyframes_culled;
-  }
-  std::map<std::string, std::vector<double>> times;
-  std::map<std::string, int> reasons;
-  double inliers = 0, matches = 0, kps = 0, n = 0;
-  int stopped = 0, iterations = 0, culled = 0;
-};
+  return settings;
+}
 
-int Run(const RunCommand& c) {
-  const SlamOptions options = LoadSlamOptions(c.config);
-  DatasetOptions dopt;
-  dopt.from = c.from;
-  if (c.frames) dopt.frames = c.frames;
-  const auto dataset = OpenDataset(c.sequence, dopt);
-  auto sink = std::make_shared<Collect>();
-  Slam slam(dataset->camera().camera, options,
-            c.deterministic ? Execution::kInline : Execution::kThreaded, {sink},
-            c.rate == "sensor" ? FeedPolicy::kDropOldest : FeedPolicy::kWait);
-  CatchInterrupts();
-  PlayOptions play;
-  play.read_ahead = !c.deterministic;
-  play.rate = c.rate == "sensor" ? PlayRate::kSensor : PlayRate::kMax;
-  Play(*dataset, slam, play, InterruptRequested);
-  const RunResult& result = slam.Finish();
-  const Trajectory final_trajectory = FinalTrajectory(result);
-  const Trajectory live = LiveTrajectory(result);
-  for (auto& [name, ms] : sink->times) {
-    auto v = ms;
-    std::sort(v.begin(), v.end());
-    double sum = 0;
-    for (double x : v)
-      sum += x;
-    fmt::print("{:12} median {:7.2f} p95 {:7.2f} total {:8.0f}\n", name, v[v.size() / 2],
-               v[v.size() * 95 / 100], sum);
+SlamOptions OptionsOf(const RunCommand& command) {
+  const SlamOptions options = LoadSlamOptions(command.config);
+  if (command.is_deterministic && options.pipeline.library_threads != 1) {
+    throw UsageError(fmt::format(
+        "--deterministic runs on one thread, but pipeline.library_threads is {}; leave it at 1",
+        options.pipeline.library_threads));
   }
-  for (auto& [r, n] : sink->reasons)
-    fmt::print("{} {}  ", r, n);
-  fmt::print("\nkeyframes {} culled {} points {} ba its {} stopped {} dropped {}\n",
-             result.snapshot->map.num_keyframes(), sink->culled, result.snapshot->map.num_points(),
-             sink->iterations, sink->stopped, result.frames_dropped);
-  fmt::print("inliers {:.0f} matches {:.0f} keypoints {:.0f}\n", sink->inliers / sink->n,
-             sink->matches / sink->n, sink->kps / sink->n);
-  fmt::print("tracked {} of {}\n", final_trajectory.size(), dataset->size());
-  if (auto gt = dataset->ground_truth()) {
-    const Trajectory reference = ReadTrajectory(*gt);
-    for (const auto* t : {&final_trajectory, &live}) {
-      const auto ate = EvaluateAte(reference, *t);
-      const auto rpe = EvaluateRpe(reference, *t);
-      fmt::print("ATE rmse {:.4f} max {:.4f}  RPE rmse {:.4f} max {:.4f}\n", ate.statistics_m.rmse,
-                 ate.statistics_m.max, rpe.translation_m.rmse, rpe.translation_m.max);
-    }
+  return options;
+}
+
+DatasetOptions DatasetOptionsOf(const RunCommand& command) {
+  return {.camera = command.camera,
+          .from = command.from,
+          .frames = command.frames,
+          .is_strict = command.is_strict};
+}
+
+// A folder that is not there yet.
+fs::path DefaultFolder(const fs::path& sequence) {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  const fs::path folder =
+      fs::path("runs") / fmt::format("{}-{:%Y%m%d-%H%M%S}", SequenceName(sequence), local);
+  fs::path unused = folder;
+  for (int attempt = 2; fs::exists(unused); ++attempt)
+    unused = fmt::format("{}-{}", folder.string(), attempt);
+  return unused;
+}
+
+void Announce(const DatasetReader& dataset, const fs::path& folder) {
+  const CameraConfig& camera = dataset.camera();
+  spdlog::info("camera: {} ({}), {}x{} px, {} depth units per metre", camera.name, camera.source,
+               camera.camera.width, camera.camera.height, camera.depth_units_per_m);
+  if (camera.approximate) {
+    spdlog::warn("camera {} is approximate: calibrate yours and pass it with --camera FILE",
+                 camera.name);
+  }
+  spdlog::info("frames: {}, results: {}", dataset.size(), folder.string());
+}
+
+std::vector<std::shared_ptr<OutputSink>> MakeListeners(const RunCommand& command,
+                                                       const DatasetReader& dataset) {
+  if (!spdlog::should_log(spdlog::level::info)) return {};
+  ProgressOptions options;
+  if (isatty(STDERR_FILENO) != 0) options.style = ProgressStyle::kBar;
+  options.first_frame = command.from;
+  options.num_frames = dataset.size();
+  return {std::make_shared<ProgressSink>(stderr, options)};
+}
+
+void Warn(const RunReport& report) {
+  const FrameCounts& frames = report.frames;
+  if (frames.unreadable > 0) {
+    spdlog::warn("{} of {} frames could not be read and were skipped; the first: {}",
+                 frames.unreadable, frames.input, report.frame_problems.front());
+  }
+  for (const std::string& problem : report.accuracy.problems)
+    spdlog::warn("{}", problem);
+  if (report.was_interrupted) {
+    spdlog::warn("interrupted after {} frames; the results are those so far", frames.input);
+  }
+}
+
+int ExitCodeOf(const RunReport& report) {
+  if (report.was_interrupted) return kExitInterrupted;
+  if (report.frames.in_trajectory == 0) {
+    throw Error("no frame of '{}' was tracked: {} (is the depth right? see 'dataset check')",
+                report.identity.sequence.string(), report.last_reason);
   }
   return kExitOk;
+}
+
+int Run(const RunCommand& command) {
+  CatchInterrupts();
+  // A file that grows beyond its limit is then an error of the write, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  const RunSettings settings = SettingsOf(command);
+  const SlamOptions options = OptionsOf(command);
+  const auto dataset = OpenDataset(command.sequence, DatasetOptionsOf(command));
+  const fs::path folder = command.out.empty() ? DefaultFolder(command.sequence) : command.out;
+  PrepareRunFolder(folder);
+  Announce(*dataset, folder);
+  const RunOutcome outcome = RunSequence(*dataset, options, settings,
+                                         MakeListeners(command, *dataset), InterruptRequested);
+  const RunTrajectories trajectories = ExtractTrajectories(outcome.result);
+  const RunReport report = MakeReport({.version = std::string(Version()),
+                                       .commit = std::string(GitCommit()),
+                                       .arguments = CommandLineArguments(),
+                                       .sequence = command.sequence,
+                                       .folder = folder,
+                                       .settings = settings},
+                                      *dataset, outcome, trajectories);
+  WriteRunFolder(report, outcome, trajectories, *dataset, options);
+  Warn(report);
+  fmt::print("{}", FormatRunSummary(report));
+  return ExitCodeOf(report);
+}
+
+void AddInputArguments(CLI::App& app, RunCommand& command) {
+  app.add_option("sequence", command.sequence, "Folder in the layout of the TUM RGB-D benchmark")
+      ->required();
+  app.add_option("--camera", command.camera.camera,
+                 "Camera file, or one of: " + DescribeCameraPresets())
+      ->type_name("NAME|FILE");
+  app.add_option("--depth-scale", command.camera.depth_units_per_m,
+                 "Value of a depth pixel one metre away, instead of the camera's")
+      ->type_name("UNITS");
+  app.add_option("--from", command.from, "Index of the first frame to play")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--frames", command.frames, "How many frames to play at most; all by default")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--strict", command.is_strict, "Stop at a frame that cannot be read");
+}
+
+void AddModeArguments(CLI::App& app, RunCommand& command) {
+  app.add_option("--out", command.out,
+                 "Folder for the results (default: runs/<sequence>-<date>-<time>)")
+      ->type_name("DIR");
+  app.add_option("--rate", command.rate,
+                 "As fast as possible without dropping a frame (max), or as recorded, dropping "
+                 "frames that wait too long (sensor)")
+      ->check(CLI::IsMember({"max", "sensor"}))
+      ->capture_default_str();
+  app.add_flag("--deterministic", command.is_deterministic,
+               "One thread for everything: equal input gives equal files");
 }
 
 }  // namespace
@@ -111,15 +192,14 @@ int Run(const RunCommand& c) {
 CLI::App* AddRunCommand(CLI::App& root, int& exit_code) {
   CLI::App* const app = root.add_subcommand("run", "Run SLAM on a recorded sequence");
   const auto command = std::make_shared<RunCommand>();
-  app->add_option("sequence", command->sequence, "Folder in TUM layout")->required();
+  AddInputArguments(*app, *command);
+  AddModeArguments(*app, *command);
   AddConfigArguments(*app, command->config);
-  app->add_flag("--deterministic", command->deterministic, "One thread, same bytes every time");
-  app->add_option("--rate", command->rate, "max or sensor")
-      ->check(CLI::IsMember({"max", "sensor"}));
-  app->add_option("--from", command->from, "First frame");
-  app->add_option("--frames", command->frames, "Number of frames");
-  AddExamples(*app, {"run my_sequence", "run my_sequence --deterministic"});
-  app->callback([command, &exit_code] { exit_code = Run(*command); });
+  AddExamples(*app, {"run ~/data/rgbd_dataset_freiburg1_desk",
+                     "run my_recording --camera d435i --depth-scale 1000 --out runs/mine",
+                     "run my_recording --from 100 --frames 200 --deterministic",
+                     "run my_recording --rate sensor --set tracking.orb.num_features=1500"});
+  app->callback([=, &exit_code] { exit_code = Run(*command); });
   return app;
 }
 

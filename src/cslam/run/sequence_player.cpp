@@ -7,16 +7,30 @@
 #include <chrono>
 #include <exception>
 #include <thread>
+#include <utility>
 
 namespace cslam {
 namespace {
 
 constexpr std::size_t kMaxProblemsKept = 20;
+constexpr std::size_t kFramesAhead = 4;
+
+struct TimedLoad {
+  LoadResult result;
+  LapTime time;
+};
+
+TimedLoad LoadTimed(const DatasetReader& dataset, std::size_t index) {
+  const Stopwatch watch;
+  LoadResult result = dataset.Load(index);
+  return {.result = std::move(result), .time = watch.Elapsed()};
+}
 
 // Loads frames in order, in a thread of its own when asked to.
 class FrameSource {
  public:
-  FrameSource(const DatasetReader& dataset, bool read_ahead) : dataset_(dataset), loaded_(4) {
+  FrameSource(const DatasetReader& dataset, bool read_ahead)
+      : dataset_(dataset), loaded_(kFramesAhead) {
     if (read_ahead) thread_ = std::thread([this] { ReadAll(); });
   }
   ~FrameSource() {
@@ -27,10 +41,10 @@ class FrameSource {
   FrameSource& operator=(const FrameSource&) = delete;
 
   // nullopt after the last frame. Throws what reading threw (strict mode).
-  std::optional<LoadResult> Next() {
+  std::optional<TimedLoad> Next() {
     if (!thread_.joinable()) {
       if (next_ >= dataset_.size()) return std::nullopt;
-      return dataset_.Load(next_++);
+      return LoadTimed(dataset_, next_++);
     }
     auto loaded = loaded_.Pop();
     if (!loaded) {
@@ -45,7 +59,7 @@ class FrameSource {
   void ReadAll() {
     try {
       for (std::size_t i = 0; i < dataset_.size(); ++i) {
-        if (!loaded_.Push(dataset_.Load(i))) break;
+        if (!loaded_.Push(LoadTimed(dataset_, i))) break;
       }
     } catch (...) {
       failure_ = std::current_exception();  // read only after the thread has been joined
@@ -54,7 +68,7 @@ class FrameSource {
   }
 
   const DatasetReader& dataset_;
-  Channel<LoadResult> loaded_;
+  Channel<TimedLoad> loaded_;
   std::size_t next_ = 0;
   std::exception_ptr failure_;
   std::thread thread_;
@@ -76,7 +90,23 @@ class SensorClock {
   std::chrono::steady_clock::time_point start_;
 };
 
+void Count(const TimedLoad& loaded, PlayReport& report) {
+  if (!loaded.result.frame) {
+    ++report.frames_unreadable;
+    if (report.problems.size() < kMaxProblemsKept) report.problems.push_back(loaded.result.problem);
+    return;
+  }
+  ++report.frames_read;
+  report.loads.push_back(loaded.time);
+  report.last_stamp = loaded.result.frame->stamp;
+  if (!report.first_stamp) report.first_stamp = report.last_stamp;
+}
+
 }  // namespace
+
+const char* ToString(PlayRate rate) {
+  return rate == PlayRate::kSensor ? "sensor" : "max";
+}
 
 PlayReport Play(const DatasetReader& dataset, Slam& slam, const PlayOptions& options,
                 const std::function<bool()>& is_interrupted) {
@@ -86,14 +116,11 @@ PlayReport Play(const DatasetReader& dataset, Slam& slam, const PlayOptions& opt
   while (!(report.was_interrupted = is_interrupted())) {
     auto loaded = source.Next();
     if (!loaded) break;
-    if (!loaded->frame) {
-      ++report.frames_unreadable;
-      if (report.problems.size() < kMaxProblemsKept) report.problems.push_back(loaded->problem);
-      continue;
-    }
-    ++report.frames_read;
-    if (options.rate == PlayRate::kSensor) clock.WaitFor(loaded->frame->stamp);
-    slam.Feed(std::make_shared<const RgbdFrame>(std::move(*loaded->frame)));
+    Count(*loaded, report);
+    auto& frame = loaded->result.frame;
+    if (!frame) continue;
+    if (options.rate == PlayRate::kSensor) clock.WaitFor(frame->stamp);
+    slam.Feed(std::make_shared<const RgbdFrame>(std::move(*frame)));
   }
   return report;
 }

@@ -4,9 +4,11 @@
 
 #include "cslam/io/dataset.h"
 #include "cslam/pipeline/slam.h"
+#include "cslam/util/stopwatch.h"
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,16 @@ enum class PlayRate : std::uint8_t {
   kMax,     // as fast as SLAM takes them, none is dropped
   kSensor,  // when their stamps say, as a live camera would
 };
+const char* ToString(PlayRate rate);
 
 // What became of the frames on their way from disk to SLAM.
 struct PlayReport {
   std::size_t frames_read = 0;
   std::size_t frames_unreadable = 0;
   std::vector<std::string> problems;  // one line per unreadable frame, the first few
+  std::vector<LapTime> loads;         // one per frame read
+  std::optional<Stamp> first_stamp;   // of the frames read
+  std::optional<Stamp> last_stamp;
   bool was_interrupted = false;
 };
 
