@@ -1,33 +1,40 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, builds the program, and runs SLAM on a sequence: a folder in the
-# layout of the TUM RGB-D benchmark, or, without one, a short sequence rendered here.
+# layout of the TUM RGB-D benchmark, or, without one, a tour of a room that is rendered here once.
 #   ./demo.sh [SEQUENCE [options of 'changing-slam run']]
 set -euo pipefail
+case ${1:-} in
+  -h | --help)
+    sed -n '3,5s/^# //p' "$0"
+    exit 0
+    ;;
+esac
 sequence=
 if [ "$#" -gt 0 ]; then
   sequence=$(realpath -m -- "$1")
   shift
 fi
+called_from=$PWD
 cd "$(dirname "$0")"
+root=$PWD
 . tools/setup.sh
 
 install_packages "${build_packages[@]}"
 configure_and_build release changing_slam
-program=build/release/changing-slam
+program=$root/build/release/changing-slam
 
 if [ -z "$sequence" ]; then
-  sequence=data/demo
-  if [ ! -d "$sequence" ]; then
+  sequence=$root/data/demo
+  if [ ! -f "$sequence/camera.yaml" ]; then # written last: the sequence is complete
     say "Rendering a sequence into $sequence"
     mkdir -p data
-    rm -rf "$sequence.part"
-    "$program" dataset render demo --out "$sequence.part"
-    mv "$sequence.part" "$sequence"
+    "$program" dataset render demo --fps 15 --out "$sequence" --force
   fi
 fi
 
-out=runs/$(basename "$sequence")
+out=$root/runs/$(basename "$sequence")
 say "Running on $sequence"
+cd "$called_from" # what the options name is meant from there
 "$program" run "$sequence" --out "$out" "$@"
-say "Trajectory plot (open it in a browser): $out/trajectory.svg"
+say "Plot of the trajectory (open it in a browser): $out/trajectory.svg"
