@@ -149,10 +149,27 @@ int Run(const RunCommand& command) {
                                        .folder = folder,
                                        .settings = settings},
                                       *dataset, outcome, trajectories);
-  WriteRunFolder(report, outcome, trajectories, *dataset, options);
+  std::optional<Error> write_failure;
+  try {
+    WriteRunFolder(report, outcome, trajectories, *dataset, options);
+  } catch (const Error& error) {
+    write_failure = error;  // what was found is worth telling all the same
+  }
   Warn(report);
   fmt::print("{}", FormatRunSummary(report));
+  if (write_failure) throw Error(*write_failure);
   return ExitCodeOf(report);
+}
+
+// The ready-made validators speak of ranges up to the largest double.
+CLI::Validator WholeNumberFrom(long smallest) {
+  return CLI::Validator(
+      [smallest](const std::string& text) -> std::string {
+        long value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= smallest) return "";
+        return fmt::format("'{}' is not a whole number of at least {}", text, smallest);
+      },
+      "");
 }
 
 void AddInputArguments(CLI::App& app, RunCommand& command) {
@@ -166,11 +183,11 @@ void AddInputArguments(CLI::App& app, RunCommand& command) {
       ->type_name("UNITS");
   app.add_option("--from", command.from, "Index of the first frame to play")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber)
+      ->check(WholeNumberFrom(0))
       ->capture_default_str();
   app.add_option("--frames", command.frames, "How many frames to play at most; all by default")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(WholeNumberFrom(1));
   app.add_flag("--strict", command.is_strict, "Stop at a frame that cannot be read");
 }
 

@@ -29,6 +29,10 @@ ProgressSink::ProgressSink(std::FILE* stream, const ProgressOptions& options)
   if (options_.style == ProgressStyle::kBar) options_.interval_ms = kBarIntervalMs;
 }
 
+ProgressSink::~ProgressSink() {
+  ClearBar();
+}
+
 void ProgressSink::OnFrame(const TrackingResult& result) {
   ++num_processed_;
   TellStateChange(result);

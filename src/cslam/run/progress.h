@@ -26,8 +26,11 @@ struct ProgressOptions {
 // Tells on a stream how far a run is, and every loss and recovery of tracking with its reason.
 class ProgressSink : public OutputSink {
  public:
-  // The stream is used until OnFinish().
+  // The stream must outlive this.
   ProgressSink(std::FILE* stream, const ProgressOptions& options);
+  ~ProgressSink() override;  // a run that ends with an error leaves no bar behind
+  ProgressSink(const ProgressSink&) = delete;
+  ProgressSink& operator=(const ProgressSink&) = delete;
 
   void OnFrame(const TrackingResult& result) override;
   void OnMap(const MapUpdate& update) override;
