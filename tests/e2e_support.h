@@ -10,9 +10,10 @@
 
 namespace cslam::test {
 
-// The default options, with every commit of the map checked.
+// The default options, with every commit of the map checked and features to suit 320 x 240.
 inline SlamOptions CheckedOptions() {
   SlamOptions options;
+  options.tracking.orb.num_features = 700;
   options.mapping.check_invariants = true;
   return options;
 }

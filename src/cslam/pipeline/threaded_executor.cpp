@@ -20,7 +20,10 @@
 namespace cslam {
 namespace {
 
-struct ResetRequest {};
+// The promise is kept once tracker and mapper have forgotten everything.
+struct ResetRequest {
+  std::shared_ptr<std::promise<void>> done;
+};
 
 // A frame on its way to the tracker; the promise is set when somebody waits for the pose.
 struct FrameMessage {
@@ -74,6 +77,8 @@ struct Slam::ThreadedExecutor::Shared {
   void RunSinks();
   void Publish(const MapUpdate& update);
   void Guard(const std::function<void()>& run);
+  template <typename T>
+  T WaitFor(std::future<T> answer);
   void RethrowFailure();
   void CloseAll();
   void Join();
@@ -103,11 +108,11 @@ struct Slam::ThreadedExecutor::Shared {
 
 void Slam::ThreadedExecutor::Shared::RunTracker() {
   while (auto input = frames.Pop()) {
-    if (std::holds_alternative<ResetRequest>(*input)) {
+    if (const auto* reset = std::get_if<ResetRequest>(&*input)) {
       tracker.Reset();
       in_flight.Enter();
-      proposals.Push(ResetRequest{});
-      events.Push(ResetRequest{});
+      events.Push(*reset);
+      proposals.Push(*reset);
       continue;
     }
     FrameMessage& message = std::get<FrameMessage>(*input);
@@ -125,9 +130,10 @@ void Slam::ThreadedExecutor::Shared::RunTracker() {
 void Slam::ThreadedExecutor::Shared::RunMapper() {
   LowerPriorityOfThisThread(mapper_nice);
   while (auto input = proposals.Pop()) {
-    if (std::holds_alternative<ResetRequest>(*input)) {
+    if (const auto* reset = std::get_if<ResetRequest>(&*input)) {
       mapper.Reset();
       latest.Publish(nullptr);
+      reset->done->set_value();
     } else {
       const MapUpdate inserted = mapper.Insert(*std::get<0>(*input));
       Publish(inserted);
@@ -171,6 +177,22 @@ void Slam::ThreadedExecutor::Shared::Guard(const std::function<void()>& run) {
       if (!failure) failure = std::current_exception();
     }
     CloseAll();
+    // Whoever waits for an answer to one of these learns that there will be none.
+    frames.Discard();
+    proposals.Discard();
+  }
+}
+
+// Rethrows the failure of a stage that ended without an answer.
+template <typename T>
+T Slam::ThreadedExecutor::Shared::WaitFor(std::future<T> answer) {
+  try {
+    return answer.get();
+  } catch (const std::future_error&) {
+    CloseAll();
+    Join();
+    RethrowFailure();
+    throw;
   }
 }
 
@@ -202,14 +224,7 @@ TrackingResult Slam::ThreadedExecutor::Track(std::shared_ptr<const RgbdFrame> fr
   auto promise = std::make_shared<std::promise<TrackingResult>>();
   auto answer = promise->get_future();
   shared_->frames.Push(FrameMessage{std::move(frame), std::move(promise)});
-  try {
-    return answer.get();
-  } catch (const std::future_error&) {  // the tracker ended without an answer
-    shared_->CloseAll();
-    shared_->Join();
-    shared_->RethrowFailure();
-    throw;
-  }
+  return shared_->WaitFor(std::move(answer));
 }
 
 void Slam::ThreadedExecutor::Feed(std::shared_ptr<const RgbdFrame> frame) {
@@ -220,9 +235,12 @@ void Slam::ThreadedExecutor::Feed(std::shared_ptr<const RgbdFrame> frame) {
   shared_->RethrowFailure();
 }
 
+// Waits, so that no frame that comes later can push the request out of a queue that drops.
 void Slam::ThreadedExecutor::Reset() {
-  shared_->frames.PushFeedback(ResetRequest{});
-  shared_->RethrowFailure();
+  auto promise = std::make_shared<std::promise<void>>();
+  auto done = promise->get_future();
+  shared_->frames.PushFeedback(ResetRequest{std::move(promise)});
+  shared_->WaitFor(std::move(done));
 }
 
 RunResult Slam::ThreadedExecutor::Finish() {

@@ -68,6 +68,14 @@ class Channel {
     not_full_.notify_all();
   }
 
+  // Throws away what waits.
+  void Discard() {
+    std::deque<T> discarded;  // destroyed outside the lock
+    const std::scoped_lock lock(mutex_);
+    std::swap(items_, discarded);
+    not_full_.notify_all();
+  }
+
   // Whether something waits. Only a hint: another thread may take it before the caller does.
   bool HasWaiting() const {
     const std::scoped_lock lock(mutex_);

@@ -121,5 +121,15 @@ TEST(Channel, DeliversEachItemOnceToManyReadersFromManyWriters) {
     EXPECT_EQ(count.load(), 1);
 }
 
+TEST(Channel, DiscardThrowsAwayWhatWaits) {
+  Channel<int> channel(2);
+  channel.Push(1);
+  channel.Push(2);
+  channel.Discard();
+  EXPECT_FALSE(channel.HasWaiting());
+  channel.Push(3);
+  EXPECT_EQ(channel.Pop(), 3);
+}
+
 }  // namespace
 }  // namespace cslam
