@@ -25,16 +25,9 @@ RunReport RunAndReport(const SimulatedDataset& dataset, const RunSettings& setti
   return MakeReport(std::move(identity), dataset, outcome, ExtractTrajectories(outcome.result));
 }
 
-// Rendered once for all tests.
 class RunSequenceTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() { rendered_ = std::make_unique<SimulatedDataset>(kNumFrames); }
-  static void TearDownTestSuite() { rendered_.reset(); }
-
-  SimulatedDataset dataset_ = *rendered_;
-
- private:
-  static inline std::unique_ptr<SimulatedDataset> rendered_;  // NOLINT(*-non-const-global-*)
+  SimulatedDataset dataset_ = RenderedDataset();
 };
 
 TEST_F(RunSequenceTest, TracksEveryFrameInlineAndThreaded) {

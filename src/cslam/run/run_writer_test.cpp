@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr int kNumFrames = 12;
+constexpr int kNumFrames = 20;
 constexpr RunSettings kInline = {.execution = Execution::kInline, .rate = PlayRate::kMax};
 const std::vector<std::string>& RepeatableFiles() {
   static const std::vector<std::string> kFiles = {"trajectory.txt", "trajectory_live.txt",
@@ -64,14 +64,8 @@ std::set<std::string> FilesIn(const fs::path& folder) {
 
 class RunWriterTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() { rendered_ = std::make_unique<SimulatedDataset>(kNumFrames); }
-  static void TearDownTestSuite() { rendered_.reset(); }
-
   TestFolder folder_;
-  SimulatedDataset dataset_ = *rendered_;
-
- private:
-  static inline std::unique_ptr<SimulatedDataset> rendered_;  // NOLINT(*-non-const-global-*)
+  SimulatedDataset dataset_ = RenderedDataset();
 };
 
 TEST_F(RunWriterTest, WritesEveryFileAndNoOther) {
@@ -126,7 +120,7 @@ TEST_F(RunWriterTest, WritesTheFolderWhenNothingWasTracked) {
   Write(run, dataset_);
   EXPECT_EQ(FilesIn(folder_ / "out").size(), 8U);
   EXPECT_TRUE(ReadTrajectory(folder_ / "out" / "trajectory.txt").empty());
-  EXPECT_THAT(FormatRunSummary(run.report), HasSubstr("0.0 % (0 of 12)"));
+  EXPECT_THAT(FormatRunSummary(run.report), HasSubstr("0.0 % (0 of 20)"));
 }
 
 TEST_F(RunWriterTest, TakesPointColoursFromTheImages) {

@@ -61,4 +61,10 @@ class SimulatedDataset : public DatasetReader {
   std::optional<std::filesystem::path> ground_truth_;
 };
 
+// 20 frames, rendered once for the whole program. Copies share pixels.
+inline const SimulatedDataset& RenderedDataset() {
+  static const SimulatedDataset kDataset(20);
+  return kDataset;
+}
+
 }  // namespace cslam
