@@ -13,6 +13,10 @@ esac
 sequence=
 if [ "$#" -gt 0 ]; then
   sequence=$(realpath -m -- "$1")
+  if [ ! -d "$sequence" ]; then # before minutes of building
+    echo "error: there is no folder '$1'" >&2
+    exit 1
+  fi
   shift
 fi
 called_from=$PWD
