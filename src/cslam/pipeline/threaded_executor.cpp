@@ -25,13 +25,14 @@ struct ResetRequest {
   std::shared_ptr<std::promise<void>> done;
 };
 
-// A frame on its way to the tracker; the promise is set when somebody waits for the pose.
-struct FrameMessage {
-  std::shared_ptr<const RgbdFrame> frame;
-  std::shared_ptr<std::promise<TrackingResult>> answer;
+// A frame on its way to the tracker, or a request to forget all. No variant: GCC 12 believes its
+// destructor to be reached uninitialised.
+struct TrackerInput {
+  std::shared_ptr<const RgbdFrame> frame;                // null: reset
+  std::shared_ptr<std::promise<TrackingResult>> answer;  // set when somebody waits for the pose
+  ResetRequest reset;
 };
 
-using TrackerInput = std::variant<FrameMessage, ResetRequest>;
 using MapperInput = std::variant<std::unique_ptr<const KeyframeProposal>, ResetRequest>;
 using Event = std::variant<TrackingResult, MapUpdate, ResetRequest>;
 
@@ -108,20 +109,19 @@ struct Slam::ThreadedExecutor::Shared {
 
 void Slam::ThreadedExecutor::Shared::RunTracker() {
   while (auto input = frames.Pop()) {
-    if (const auto* reset = std::get_if<ResetRequest>(&*input)) {
+    if (!input->frame) {
       tracker.Reset();
       in_flight.Enter();
-      events.Push(*reset);
-      proposals.Push(*reset);
+      events.Push(ResetRequest{});
+      proposals.Push(std::move(input->reset));
       continue;
     }
-    FrameMessage& message = std::get<FrameMessage>(*input);
-    TrackerOutput output = tracker.Process(*message.frame, latest.Get());
+    TrackerOutput output = tracker.Process(*input->frame, latest.Get());
     if (output.proposal) {
       in_flight.Enter();
       proposals.Push(std::make_unique<const KeyframeProposal>(std::move(*output.proposal)));
     }
-    if (message.answer) message.answer->set_value(output.result);
+    if (input->answer) input->answer->set_value(output.result);
     events.Push(std::move(output.result));
   }
   proposals.Close();
@@ -223,7 +223,7 @@ Slam::ThreadedExecutor::~ThreadedExecutor() = default;
 TrackingResult Slam::ThreadedExecutor::Track(std::shared_ptr<const RgbdFrame> frame) {
   auto promise = std::make_shared<std::promise<TrackingResult>>();
   auto answer = promise->get_future();
-  shared_->frames.Push(FrameMessage{std::move(frame), std::move(promise)});
+  shared_->frames.Push({.frame = std::move(frame), .answer = std::move(promise), .reset = {}});
   return shared_->WaitFor(std::move(answer));
 }
 
@@ -231,7 +231,7 @@ void Slam::ThreadedExecutor::Feed(std::shared_ptr<const RgbdFrame> frame) {
   if (shared_->feed_policy == FeedPolicy::kWait) {
     shared_->in_flight.WaitUntilAtMost(shared_->max_proposals_ahead);
   }
-  shared_->frames.Push(FrameMessage{std::move(frame), nullptr});
+  shared_->frames.Push({.frame = std::move(frame), .answer = nullptr, .reset = {}});
   shared_->RethrowFailure();
 }
 
@@ -239,7 +239,8 @@ void Slam::ThreadedExecutor::Feed(std::shared_ptr<const RgbdFrame> frame) {
 void Slam::ThreadedExecutor::Reset() {
   auto promise = std::make_shared<std::promise<void>>();
   auto done = promise->get_future();
-  shared_->frames.PushFeedback(ResetRequest{std::move(promise)});
+  shared_->frames.PushFeedback(
+      {.frame = nullptr, .answer = nullptr, .reset = {std::move(promise)}});
   shared_->WaitFor(std::move(done));
 }
 
