@@ -75,6 +75,7 @@ void JsonObject::Add(std::string_view key, std::string_view text) {
 
 void JsonObject::Add(std::string_view key, const std::vector<std::string>& texts) {
   std::vector<std::string> items;
+  items.reserve(texts.size());
   for (const std::string& text : texts)
     items.push_back(Quote(text));
   AddRaw(key, Enclose('[', items, ']'));
@@ -102,8 +103,9 @@ void JsonObject::AddRaw(std::string_view key, std::string json) {
 
 std::string JsonObject::Text() const {
   std::vector<std::string> items;
+  items.reserve(fields_.size());
   for (const auto& [key, value] : fields_)
-    items.push_back(key + ": " + value);
+    items.push_back(fmt::format("{}: {}", key, value));
   return Enclose('{', items, '}');
 }
 

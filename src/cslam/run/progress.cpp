@@ -53,8 +53,8 @@ void ProgressSink::TellStateChange(const TrackingResult& result) {
   const TrackingState before = std::exchange(state_, result.state);
   if (before == state_ || !(IsLost(before) || IsLost(state_))) return;
   ClearBar();
-  fmt::print(stream_, "frame {} ({} s): {}: {}\n", result.frame.value(), FormatStamp(result.stamp),
-             ToString(state_), result.reason);
+  Say(fmt::format("frame {} ({} s): {}: {}\n", result.frame.value(), FormatStamp(result.stamp),
+                  ToString(state_), result.reason));
 }
 
 void ProgressSink::Draw(const TrackingResult& result) {
@@ -65,18 +65,22 @@ void ProgressSink::Draw(const TrackingResult& result) {
                                        done, options_.num_frames, ToString(result.state),
                                        result.num_inliers, num_keyframes_, fps);
   if (options_.style == ProgressStyle::kLines) {
-    fmt::print(stream_, "{}\n", text);
+    Say(text + '\n');
     return;
   }
-  fmt::print(stream_, "\r\033[K{} {}", Bar(done, options_.num_frames), text);
-  std::fflush(stream_);
+  Say(fmt::format("\r\033[K{} {}", Bar(done, options_.num_frames), text));
   has_bar_ = true;
+}
+
+// A stream that takes nothing more must not end the run.
+void ProgressSink::Say(const std::string& text) {
+  std::fputs(text.c_str(), stream_);
+  std::fflush(stream_);
 }
 
 void ProgressSink::ClearBar() {
   if (!has_bar_) return;
-  fmt::print(stream_, "\r\033[K");
-  std::fflush(stream_);
+  Say("\r\033[K");
   has_bar_ = false;
 }
 

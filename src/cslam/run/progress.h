@@ -39,6 +39,7 @@ class ProgressSink : public OutputSink {
  private:
   void TellStateChange(const TrackingResult& result);
   void Draw(const TrackingResult& result);
+  void Say(const std::string& text);
   void ClearBar();
 
   std::FILE* stream_;

@@ -35,6 +35,9 @@ class ProgressSinkTest : public testing::Test {
     return result;
   }
 
+  std::FILE* stream() const { return stream_.get(); }
+
+ private:
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
@@ -42,20 +45,20 @@ class ProgressSinkTest : public testing::Test {
 };
 
 TEST_F(ProgressSinkTest, CountsFromTheFirstFrameWhenLinesAreDue) {
-  ProgressSink sink(stream_.get(), {.first_frame = 100, .num_frames = 20, .interval_ms = 0.0});
+  ProgressSink sink(stream(), {.first_frame = 100, .num_frames = 20, .interval_ms = 0.0});
   sink.OnFrame(Frame(104, TrackingState::kTracking, ""));
   EXPECT_THAT(Printed(), HasSubstr("frame 5 of 20, tracking, 90 inliers, 0 keyframes"));
 }
 
 TEST_F(ProgressSinkTest, SaysNothingBeforeTheNextLineIsDue) {
-  ProgressSink sink(stream_.get(), {.num_frames = 20, .interval_ms = 1e9});
+  ProgressSink sink(stream(), {.num_frames = 20, .interval_ms = 1e9});
   sink.OnFrame(Frame(0, TrackingState::kTracking, ""));
   sink.OnFinish(RunResult());
   EXPECT_EQ(Printed(), "");
 }
 
 TEST_F(ProgressSinkTest, TellsLossAndRecoveryWithReasonAtOnce) {
-  ProgressSink sink(stream_.get(), {.num_frames = 20, .interval_ms = 1e9});
+  ProgressSink sink(stream(), {.num_frames = 20, .interval_ms = 1e9});
   sink.OnFrame(Frame(0, TrackingState::kTracking, "map 0 starts"));
   sink.OnFrame(Frame(1, TrackingState::kRecentlyLost, "11 inliers < 30"));
   sink.OnFrame(Frame(2, TrackingState::kRecentlyLost, "8 inliers < 30"));
@@ -67,12 +70,26 @@ TEST_F(ProgressSinkTest, TellsLossAndRecoveryWithReasonAtOnce) {
 
 TEST_F(ProgressSinkTest, LeavesNoBarBehindWhenItEnds) {
   {
-    ProgressSink sink(stream_.get(), {.style = ProgressStyle::kBar, .num_frames = 2});
+    ProgressSink sink(stream(), {.style = ProgressStyle::kBar, .num_frames = 2});
     while (Printed().empty())  // until the first bar is due
       sink.OnFrame(Frame(0, TrackingState::kTracking, ""));
     EXPECT_THAT(Printed(), HasSubstr("[############............] frame 1 of 2"));
   }
   EXPECT_THAT(Printed(), EndsWith("\r\033[K"));
+}
+
+TrackingResult MakeFrame() {
+  TrackingResult result;
+  result.frame = FrameId(0);
+  return result;
+}
+
+TEST(ProgressSink, GoesOnWhenTheStreamTakesNothing) {
+  std::FILE* const full = std::fopen("/dev/full", "w");
+  ASSERT_NE(full, nullptr);
+  ProgressSink sink(full, {.num_frames = 2, .interval_ms = 0.0});
+  EXPECT_NO_THROW(sink.OnFrame(MakeFrame()));
+  std::fclose(full);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ bool Never() {
   return false;
 }
 
-RunReport RunAndReport(const SimulatedDataset& dataset, const RunSettings& settings,
+RunReport RunAndReport(const MemoryDataset& dataset, const RunSettings& settings,
                        const std::function<bool()>& is_interrupted = Never) {
   const RunOutcome outcome = RunSequence(dataset, SlamOptions(), settings, {}, is_interrupted);
   RunIdentity identity;
@@ -27,7 +27,7 @@ RunReport RunAndReport(const SimulatedDataset& dataset, const RunSettings& setti
 
 class RunSequenceTest : public testing::Test {
  protected:
-  SimulatedDataset dataset_ = RenderedDataset();
+  MemoryDataset dataset_ = RenderedDataset();
 };
 
 TEST_F(RunSequenceTest, TracksEveryFrameInlineAndThreaded) {

@@ -37,7 +37,7 @@ struct FinishedRun {
   RunReport report;
 };
 
-FinishedRun RunInto(const fs::path& folder, const SimulatedDataset& dataset) {
+FinishedRun RunInto(const fs::path& folder, const MemoryDataset& dataset) {
   FinishedRun run;
   run.outcome = RunSequence(dataset, SlamOptions(), kInline, {}, [] { return false; });
   run.trajectories = ExtractTrajectories(run.outcome.result);
@@ -51,7 +51,7 @@ FinishedRun RunInto(const fs::path& folder, const SimulatedDataset& dataset) {
   return run;
 }
 
-void Write(const FinishedRun& run, const SimulatedDataset& dataset) {
+void Write(const FinishedRun& run, const MemoryDataset& dataset) {
   WriteRunFolder(run.report, run.outcome, run.trajectories, dataset, SlamOptions());
 }
 
@@ -65,7 +65,7 @@ std::set<std::string> FilesIn(const fs::path& folder) {
 class RunWriterTest : public testing::Test {
  protected:
   TestFolder folder_;
-  SimulatedDataset dataset_ = RenderedDataset();
+  MemoryDataset dataset_ = RenderedDataset();
 };
 
 TEST_F(RunWriterTest, WritesEveryFileAndNoOther) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/run/stage_times.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -25,7 +27,7 @@ class StepTimes {
     if (totals_.empty()) return;
     summaries.push_back(SummariseStage(group, totals_));
     for (const auto& [step, laps] : steps_)
-      summaries.push_back(SummariseStage(group + "." + step, laps));
+      summaries.push_back(SummariseStage(fmt::format("{}.{}", group, step), laps));
   }
 
  private:

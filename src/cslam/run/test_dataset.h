@@ -4,7 +4,6 @@
 
 #include "cslam/io/dataset.h"
 #include "cslam/io/trajectory_file.h"
-#include "cslam/sim/simulated_sequence.h"
 
 #include <opencv2/core.hpp>
 
@@ -12,20 +11,17 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace cslam {
 
-// For tests: a few frames of the demo sequence at 320 x 240, rendered once, played from memory.
-class SimulatedDataset : public DatasetReader {
+// For tests: frames that are played from memory.
+class MemoryDataset : public DatasetReader {
  public:
-  explicit SimulatedDataset(int num_frames)
-      : sequence_(MakeDemoSequence({.width = 320, .height = 240})) {
-    camera_.camera = sequence_.camera();
-    camera_.name = "simulated";
-    for (int i = 0; i < num_frames; ++i)
-      frames_.push_back(sequence_.Frame(i));
-  }
+  // truth: the pose of each frame.
+  MemoryDataset(CameraConfig camera, std::vector<RgbdFrame> frames, Trajectory truth)
+      : camera_(std::move(camera)), frames_(std::move(frames)), truth_(std::move(truth)) {}
 
   std::size_t size() const override { return frames_.size(); }
   Stamp stamp(std::size_t index) const override { return frames_[index].stamp; }
@@ -45,26 +41,21 @@ class SimulatedDataset : public DatasetReader {
   void MakeUnreadable(std::size_t index) { unreadable_.insert(index); }
   void RemoveDepth() { has_depth_ = false; }
   void WriteGroundTruth(const std::filesystem::path& path) {
-    Trajectory truth;
-    for (int i = 0; i < static_cast<int>(size()); ++i)
-      truth.push_back({sequence_.stamp(i), sequence_.T_world_camera(i)});
-    WriteTrajectory(path, truth);
+    WriteTrajectory(path, truth_);
     ground_truth_ = path;
   }
 
  private:
-  SimulatedSequence sequence_;
   CameraConfig camera_;
   std::vector<RgbdFrame> frames_;
+  Trajectory truth_;
   std::set<std::size_t> unreadable_;
   bool has_depth_ = true;
   std::optional<std::filesystem::path> ground_truth_;
 };
 
-// 20 frames, rendered once for the whole program. Copies share pixels.
-inline const SimulatedDataset& RenderedDataset() {
-  static const SimulatedDataset kDataset(20);
-  return kDataset;
-}
+// The first 20 frames of the demo sequence at 320 x 240, rendered once for the whole program.
+// Copies share pixels.
+const MemoryDataset& RenderedDataset();
 
 }  // namespace cslam
