@@ -9,4 +9,8 @@ cd "$(dirname "$0")"
 install_packages "${build_packages[@]}" "${test_packages[@]}"
 configure_and_build ci
 say "Testing"
-exec ctest --preset ci --parallel "$(nproc)" "$@"
+log=build/test/ctest.log
+status=0
+ctest --preset ci --no-tests=error --parallel "$(nproc)" "$@" | tee "$log" || status=$?
+grep 'tests passed' "$log" || true # once more: below it ctest lists what was skipped
+exit "$status"
