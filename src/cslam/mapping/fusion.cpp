@@ -6,10 +6,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace cslam {
 namespace {
+
+// Keyframes of the same map that looked the same way from nearby, the nearest first.
+std::vector<KeyframeId> NearbyKeyframes(const Map& map, KeyframeId keyframe,
+                                        const std::set<KeyframeId>& excluded,
+                                        const FusionOptions& options) {
+  const Keyframe& center = *map.FindKeyframe(keyframe);
+  const Eigen::Vector3d view = center.T_world_camera.rotation * Eigen::Vector3d::UnitZ();
+  const double min_cosine = std::cos(options.nearby_angle_deg * std::numbers::pi / 180.0);
+  std::vector<std::pair<double, KeyframeId>> nearby;
+  for (const KeyframeId id : map.Keyframes()) {
+    const Keyframe& other = *map.FindKeyframe(id);
+    if (other.map != center.map || excluded.contains(id)) continue;
+    const double distance =
+        (other.T_world_camera.translation - center.T_world_camera.translation).norm();
+    const double cosine = view.dot(other.T_world_camera.rotation * Eigen::Vector3d::UnitZ());
+    if (distance <= options.nearby_distance_m && cosine >= min_cosine) {
+      nearby.emplace_back(distance, id);
+    }
+  }
+  std::sort(nearby.begin(), nearby.end());
+  std::vector<KeyframeId> ids;
+  for (const auto& [distance, id] : nearby) {
+    if (static_cast<int>(ids.size()) == options.nearby_keyframes) break;
+    ids.push_back(id);
+  }
+  return ids;
+}
 
 std::vector<KeyframeId> SelectTargets(const Map& map, KeyframeId keyframe, int min_shared_points,
                                       const FusionOptions& options) {
@@ -27,6 +55,8 @@ std::vector<KeyframeId> SelectTargets(const Map& map, KeyframeId keyframe, int m
       if (seen.insert(n.id).second) targets.push_back(n.id);
     }
   }
+  const auto nearby = NearbyKeyframes(map, keyframe, seen, options);
+  targets.insert(targets.end(), nearby.begin(), nearby.end());
   return targets;
 }
 

@@ -26,6 +26,13 @@ void Describe(OptionList& list, FusionOptions& o) {
            "Covisible keyframes whose points are fused with those of a new keyframe.");
   list.Add("second_neighbours", o.second_neighbours, {0, 100}, "keyframes",
            "Neighbours of each neighbour that take part too.");
+  list.Add("nearby_keyframes", o.nearby_keyframes, {0, 100}, "keyframes",
+           "Keyframes that take part because they looked from nearby, though they share no points "
+           "(yet): this ties a revisited place to its old points while drift is small.");
+  list.Add("nearby_distance", o.nearby_distance_m, {0.0, 100.0}, "m",
+           "How far apart two cameras may be to count as nearby.");
+  list.Add("nearby_angle", o.nearby_angle_deg, {0.0, 180.0}, "deg",
+           "How far their viewing directions may differ.");
   list.Add("radius", o.radius_px, {0.5, 50.0}, "px",
            "Search radius at level 0 around a point's projection.");
   list.Add("match_distance", o.match_distance, {1, 256}, "bits",

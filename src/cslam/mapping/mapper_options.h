@@ -23,6 +23,9 @@ void Describe(OptionList& list, TriangulationOptions& options);
 struct FusionOptions {
   int neighbours = 10;
   int second_neighbours = 5;
+  int nearby_keyframes = 5;
+  double nearby_distance_m = 1.0;
+  double nearby_angle_deg = 45.0;
   double radius_px = 3.0;
   int match_distance = 50;
 };

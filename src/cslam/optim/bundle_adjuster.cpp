@@ -145,24 +145,6 @@ class ObservationCost final : public ceres::SizedCostFunction<3, 3, kBlocks...> 
 using FreePoseCost = ObservationCost<3, 3>;  // point, rotation, translation
 using FixedPoseCost = ObservationCost<>;     // point
 
-// Huber's kernel that can be switched off between rounds.
-class SwitchedHuber final : public ceres::LossFunction {
- public:
-  explicit SwitchedHuber(double threshold) : threshold_(threshold) {}
-
-  void SwitchOff() { threshold_ = std::numeric_limits<double>::infinity(); }
-
-  void Evaluate(double chi2, double* rho) const override {
-    const bool is_far = chi2 > threshold_;
-    rho[0] = HuberCost(chi2, threshold_);
-    rho[1] = is_far ? std::sqrt(threshold_ / chi2) : 1.0;
-    rho[2] = is_far ? -0.5 * rho[1] / chi2 : 0.0;
-  }
-
- private:
-  double threshold_;
-};
-
 class StopCallback final : public ceres::IterationCallback {
  public:
   explicit StopCallback(const std::function<bool()>& should_stop) : should_stop_(should_stop) {}
@@ -195,8 +177,7 @@ class Adjustment {
       : options_(options),
         model_(problem.camera, problem.baseline_m),
         state_(problem),
-        mono_kernel_(options.chi2_mono),
-        depth_kernel_(options.chi2_depth),
+        kernel_(std::sqrt(options.kernel_chi2)),
         ceres_problem_(ProblemOptions(&state_)) {
     MakeTerms(problem);
     AddResiduals();
@@ -210,7 +191,7 @@ class Adjustment {
   // At most max_iterations Levenberg-Marquardt steps over the active terms.
   void SolveRound(int max_iterations, StopCallback& stop);
 
-  // Keeps what fits the current state, without a kernel from now on.
+  // Keeps what fits the current state.
   void LeaveOutOutliers();
 
   double RobustCost() const;  // over all observations that can be judged
@@ -228,8 +209,7 @@ class Adjustment {
   std::vector<BaTerm> terms_;            // one per observation
   std::deque<FreePoseCost> free_costs_;  // deques: cost functions cannot move
   std::deque<FixedPoseCost> fixed_costs_;
-  SwitchedHuber mono_kernel_;
-  SwitchedHuber depth_kernel_;
+  ceres::HuberLoss kernel_;
   ceres::Problem ceres_problem_;
   ceres::ParameterBlockOrdering ordering_;
   int num_free_poses_ = 0;  // with observations
@@ -257,18 +237,17 @@ void Adjustment::AddResiduals() {
   std::vector<std::uint8_t> pose_is_used(state_.num_poses());
   for (const BaTerm& term : terms_) {
     if (!term.measurement.is_usable) continue;
-    SwitchedHuber* kernel = term.measurement.has_disparity ? &depth_kernel_ : &mono_kernel_;
     double* point = state_.point(term.point);
     point_is_used[Index(term.point)] = 1;
     if (term.pose_is_fixed) {
       fixed_costs_.emplace_back(model_, state_, term);
-      ceres_problem_.AddResidualBlock(&fixed_costs_.back(), kernel, point);
+      ceres_problem_.AddResidualBlock(&fixed_costs_.back(), &kernel_, point);
       continue;
     }
     pose_is_used[Index(term.pose)] = 1;
     free_costs_.emplace_back(model_, state_, term);
-    ceres_problem_.AddResidualBlock(&free_costs_.back(), kernel, point, state_.rotation(term.pose),
-                                    state_.translation(term.pose));
+    ceres_problem_.AddResidualBlock(&free_costs_.back(), &kernel_, point,
+                                    state_.rotation(term.pose), state_.translation(term.pose));
   }
   for (int i = 0; i < static_cast<int>(point_is_used.size()); ++i) {
     if (point_is_used[Index(i)]) ordering_.AddElementToGroup(state_.point(i), 0);
@@ -315,15 +294,13 @@ void Adjustment::SolveRound(int max_iterations, StopCallback& stop) {
 void Adjustment::LeaveOutOutliers() {
   for (BaTerm& term : terms_)
     term.is_active = Chi2Of(term) <= term.threshold;
-  mono_kernel_.SwitchOff();
-  depth_kernel_.SwitchOff();
 }
 
 double Adjustment::RobustCost() const {
   double cost = 0.0;
   for (const BaTerm& term : terms_) {
     const double chi2 = Chi2Of(term);
-    if (std::isfinite(chi2)) cost += 0.5 * HuberCost(chi2, term.threshold);
+    if (std::isfinite(chi2)) cost += 0.5 * HuberCost(chi2, options_.kernel_chi2);
   }
   return cost;
 }
@@ -365,6 +342,8 @@ void Describe(OptionList& list, BundleAdjusterOptions& o) {
            "most iterations of the first round, with Huber's kernel");
   list.Add("iterations_final", o.iterations_final, {0, 1000}, "",
            "most iterations of the second round, without outliers and kernel");
+  list.Add("kernel_chi2", o.kernel_chi2, {0.01, 1000.0}, "sigma^2",
+           "squared error beyond which Huber's kernel grows linearly");
   list.Add("chi2_mono", o.chi2_mono, {0.1, 1000.0}, "sigma^2",
            "largest squared error of an inlier without depth reading");
   list.Add("chi2_depth", o.chi2_depth, {0.1, 1000.0}, "sigma^2",

@@ -34,8 +34,9 @@ struct BaProblem {
 };
 
 struct BundleAdjusterOptions {
-  int iterations_robust = 5;  // first round, with Huber's kernel
-  int iterations_final = 10;  // second round, outliers left out, no kernel
+  int iterations_robust = 5;  // first round, over all observations
+  int iterations_final = 10;  // second round, outliers left out
+  double kernel_chi2 = 1.0;   // squared error beyond which Huber's kernel grows linearly, in both
   double chi2_mono = 5.991;   // chi2, 2 dof, 95 %
   double chi2_depth = 7.815;  // chi2, 3 dof, 95 %
   // A round ends early once a step lowers the cost by less than this share.

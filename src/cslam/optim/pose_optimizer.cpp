@@ -37,6 +37,7 @@ struct alignas(64) ObservationBlock {
   Lanes u{}, v{}, disparity{};  // u and v from the principal point
   Lanes information_px{}, information_disparity{};
   Lanes threshold = Ones();  // chi2
+  Lanes kernel = Ones();     // chi2
   Lanes active{};            // 1: takes part, 0: not
 };
 
@@ -53,7 +54,7 @@ struct NormalEquations {
   double cost = 0.0;  // sum of chi2, with the kernel if it is on
 };
 
-enum class Kernel { kNone, kHuber };
+enum class Kernel { kNone, kCauchy };
 
 struct Errors {
   Lanes a, b, inverse_z;  // x / z, y / z, 1 / z
@@ -158,12 +159,11 @@ void AddBlock(const PixelDisparityModel& model, const CameraFromWorld& pose,
               const ObservationBlock& block, Kernel kernel, NormalSums& sums) {
   const Errors e = ComputeErrors(model, pose, block);
   Lanes weight;
-  if (kernel == Kernel::kHuber) {
+  if (kernel == Kernel::kCauchy) {
     for (std::size_t i = 0; i < kLanes; ++i) {
-      const double root = std::sqrt(block.threshold[i] * e.chi2[i]);
-      const bool is_far = e.chi2[i] > block.threshold[i];
-      weight[i] = block.active[i] * (is_far ? block.threshold[i] / root : 1.0);
-      sums.cost[i] += block.active[i] * (is_far ? 2.0 * root - block.threshold[i] : e.chi2[i]);
+      const double stretched = 1.0 + e.chi2[i] / block.kernel[i];
+      weight[i] = block.active[i] / stretched;
+      sums.cost[i] += block.active[i] * block.kernel[i] * std::log(stretched);
     }
   } else {
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -210,6 +210,7 @@ class PoseProblem {
       block.information_px[lane] = observations[i].information_px;
       block.information_disparity[lane] =
           m.has_disparity ? observations[i].information_disparity : 0.0;
+      block.kernel[lane] = options.kernel_chi2;
       block.threshold[lane] = m.has_disparity ? options.chi2_depth : options.chi2_mono;
     }
   }
@@ -277,10 +278,9 @@ struct RoundResult {
 };
 
 // Levenberg-Marquardt over the active observations. The cost never rises.
-RoundResult Minimise(const PoseProblem& problem, const Se3& start, Kernel kernel,
-                     int max_iterations) {
+RoundResult Minimise(const PoseProblem& problem, const Se3& start, int max_iterations) {
   RoundResult result{.T_world_camera = start};
-  NormalEquations current = problem.Linearise(start, kernel);
+  NormalEquations current = problem.Linearise(start, Kernel::kCauchy);
   double damping = kStartDamping;
   while (result.iterations < max_iterations && damping <= kLargestDamping) {
     ++result.iterations;
@@ -295,7 +295,7 @@ RoundResult Minimise(const PoseProblem& problem, const Se3& start, Kernel kernel
     const double expected_gain = -step.dot(2.0 * current.gradient + current.hessian * step);
     if (!(expected_gain > kCostTolerance * current.cost + kChi2Tolerance)) break;
     const Se3 trial = result.T_world_camera * Exp(step);
-    const NormalEquations next = problem.Linearise(trial, kernel);
+    const NormalEquations next = problem.Linearise(trial, Kernel::kCauchy);
     if (!(next.cost < current.cost)) {
       damping *= kDampingFactor;
       continue;
@@ -322,6 +322,8 @@ void Describe(OptionList& list, PoseOptimizerOptions& o) {
   list.Add("rounds", o.rounds, {1, 20}, "", "rounds, after each of which outliers are judged anew");
   list.Add("iterations_per_round", o.iterations_per_round, {1, 100}, "",
            "most Levenberg-Marquardt steps of a round");
+  list.Add("kernel_chi2", o.kernel_chi2, {0.01, 1000.0}, "sigma^2",
+           "squared error at which Cauchy's kernel halves an observation's weight");
   list.Add("chi2_mono", o.chi2_mono, {0.1, 1000.0}, "sigma^2",
            "largest squared error of an inlier without depth reading");
   list.Add("chi2_depth", o.chi2_depth, {0.1, 1000.0}, "sigma^2",
@@ -340,14 +342,13 @@ PoseSolution OptimizePose(const Camera& camera, double baseline_m, const Se3& T_
   std::vector<std::uint8_t> is_active = problem.InFront(T_world_camera);
   for (int round = 0; round < options.rounds; ++round) {
     if (Count(is_active) < kMinObservations) break;
-    const Kernel kernel = round < options.rounds - 2 ? Kernel::kHuber : Kernel::kNone;
     problem.Activate(is_active);
     const RoundResult result =
-        Minimise(problem, solution.T_world_camera, kernel, options.iterations_per_round);
+        Minimise(problem, solution.T_world_camera, options.iterations_per_round);
     solution.T_world_camera = result.T_world_camera;
     solution.iterations += result.iterations;
     std::vector<std::uint8_t> judged = problem.Judge(solution.T_world_camera);
-    const bool is_settled = kernel == Kernel::kNone && judged == is_active;
+    const bool is_settled = judged == is_active;
     is_active = std::move(judged);
     if (is_settled) break;
   }
