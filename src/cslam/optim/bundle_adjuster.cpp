@@ -339,17 +339,17 @@ void CheckProblem(const BaProblem& problem) {
 
 void Describe(OptionList& list, BundleAdjusterOptions& o) {
   list.Add("iterations_robust", o.iterations_robust, {0, 1000}, "",
-           "most iterations of the first round, with Huber's kernel");
+           "Most iterations of the first round, over all observations.");
   list.Add("iterations_final", o.iterations_final, {0, 1000}, "",
-           "most iterations of the second round, without outliers and kernel");
+           "Most iterations of the second round, with outliers left out.");
   list.Add("kernel_chi2", o.kernel_chi2, {0.01, 1000.0}, "sigma^2",
-           "squared error beyond which Huber's kernel grows linearly");
+           "Squared error beyond which Huber's kernel grows linearly.");
   list.Add("chi2_mono", o.chi2_mono, {0.1, 1000.0}, "sigma^2",
-           "largest squared error of an inlier without depth reading");
+           "Largest squared error of an inlier without depth reading.");
   list.Add("chi2_depth", o.chi2_depth, {0.1, 1000.0}, "sigma^2",
-           "largest squared error of an inlier with depth reading");
+           "Largest squared error of an inlier with depth reading.");
   list.Add("function_tolerance", o.function_tolerance, {0.0, 1.0}, "",
-           "a round ends once a step lowers the cost by less than this share");
+           "A round ends once a step lowers the cost by less than this share.");
 }
 
 BaResult AdjustBundle(const BaProblem& problem, const BundleAdjusterOptions& options,

@@ -319,15 +319,16 @@ std::size_t Count(const std::vector<std::uint8_t>& flags) {
 }  // namespace
 
 void Describe(OptionList& list, PoseOptimizerOptions& o) {
-  list.Add("rounds", o.rounds, {1, 20}, "", "rounds, after each of which outliers are judged anew");
+  list.Add("rounds", o.rounds, {1, 20}, "",
+           "Rounds, after each of which outliers are judged anew.");
   list.Add("iterations_per_round", o.iterations_per_round, {1, 100}, "",
-           "most Levenberg-Marquardt steps of a round");
+           "Most Levenberg-Marquardt steps of a round.");
   list.Add("kernel_chi2", o.kernel_chi2, {0.01, 1000.0}, "sigma^2",
-           "squared error at which Cauchy's kernel halves an observation's weight");
+           "Squared error at which Cauchy's kernel halves an observation's weight.");
   list.Add("chi2_mono", o.chi2_mono, {0.1, 1000.0}, "sigma^2",
-           "largest squared error of an inlier without depth reading");
+           "Largest squared error of an inlier without depth reading.");
   list.Add("chi2_depth", o.chi2_depth, {0.1, 1000.0}, "sigma^2",
-           "largest squared error of an inlier with depth reading");
+           "Largest squared error of an inlier with depth reading.");
 }
 
 PoseSolution OptimizePose(const Camera& camera, double baseline_m, const Se3& T_world_camera,

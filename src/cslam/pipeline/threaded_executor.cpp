@@ -40,6 +40,8 @@ template <typename... Visitors>
 struct Overload : Visitors... {
   using Visitors::operator()...;
 };
+template <typename... Visitors>
+Overload(Visitors...) -> Overload<Visitors...>;
 
 constexpr std::size_t kUnbounded = static_cast<std::size_t>(-1);
 

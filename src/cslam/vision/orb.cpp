@@ -87,14 +87,14 @@ std::vector<Refined> RefineAll(const cv::Mat& scores, const std::vector<Candidat
 }  // namespace
 
 void Describe(OptionList& list, OrbOptions& o) {
-  list.Add("num_features", o.num_features, {10, 20'000}, "corners", "corners per image");
-  list.Add("num_levels", o.num_levels, {1, 16}, "levels", "levels of the image pyramid");
-  list.Add("scale_factor", o.scale_factor, {1.05, 2.0}, "", "scale between neighbouring levels");
+  list.Add("num_features", o.num_features, {10, 20'000}, "corners", "Corners per image.");
+  list.Add("num_levels", o.num_levels, {1, 16}, "levels", "Levels of the image pyramid.");
+  list.Add("scale_factor", o.scale_factor, {1.05, 2.0}, "", "Scale between neighbouring levels.");
   list.Add("fast_threshold", o.fast_threshold, {1, 254}, "grey levels",
-           "contrast of a corner against its ring");
+           "Contrast of a corner against its ring.");
   list.Add("fast_threshold_min", o.fast_threshold_min, {1, 254}, "grey levels",
-           "the same where a cell has no corner at fast_threshold");
-  list.Add("subpixel", o.subpixel, "refine corners to fractions of a pixel");
+           "The same where a cell has no corner at fast_threshold.");
+  list.Add("subpixel", o.subpixel, "Refine corners to fractions of a pixel.");
 }
 
 std::vector<double> LevelScales(const OrbOptions& options) {
