@@ -57,6 +57,7 @@ std::string CheckObservations(const MapView& map, const Keyframe& keyframe) {
     }
   }
   std::vector<CovisibleKeyframe> recounted;
+  recounted.reserve(weights.size());
   for (const auto& [id, count] : weights)
     recounted.push_back({id, count});
   if (recounted != keyframe.covisible) {

@@ -48,7 +48,9 @@ class MapView {
   std::vector<CovisibleKeyframe> Neighbours(KeyframeId id, int min_shared,
                                             std::size_t max_count) const;
 
- protected:
+ private:
+  friend class Map;  // the only one to change them
+
   // Slots of culled keyframes and erased points stay, so ids index directly.
   CowArray<Keyframe, 1> keyframes_;
   CowArray<MapPoint, 64> points_;

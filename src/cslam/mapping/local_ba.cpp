@@ -49,6 +49,7 @@ Selection Select(const Map& map, KeyframeId center, int min_shared_points,
   for (const KeyframeId id : selection.keyframes)
     others.erase(id);
   std::vector<CovisibleKeyframe> fixed;
+  fixed.reserve(others.size());
   for (const auto& [id, count] : others)
     fixed.push_back({id, count});
   std::stable_sort(fixed.begin(), fixed.end(),

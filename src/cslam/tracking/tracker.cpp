@@ -56,9 +56,8 @@ void Tracker::Reset() {
 }
 
 TrackerOutput Tracker::Process(const RgbdFrame& frame,
-                               std::shared_ptr<const MapSnapshot> snapshot) {
-  static const auto empty = std::make_shared<const MapSnapshot>();
-  snapshot_ = snapshot ? std::move(snapshot) : empty;
+                               const std::shared_ptr<const MapSnapshot>& snapshot) {
+  snapshot_ = snapshot ? snapshot : std::make_shared<const MapSnapshot>();
   history_.Update(snapshot_->map);
 
   CurrentFrame current;

@@ -28,7 +28,7 @@ class Tracker {
   Tracker(const Camera& camera, const TrackerOptions& options);
 
   // Frames in order of time. snapshot: the newest there is; null before the first.
-  TrackerOutput Process(const RgbdFrame& frame, std::shared_ptr<const MapSnapshot> snapshot);
+  TrackerOutput Process(const RgbdFrame& frame, const std::shared_ptr<const MapSnapshot>& snapshot);
 
   // Forgets everything but the ids handed out: the next good frame starts a new map.
   void Reset();
