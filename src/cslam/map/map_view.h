@@ -48,14 +48,15 @@ class MapView {
   std::vector<CovisibleKeyframe> Neighbours(KeyframeId id, int min_shared,
                                             std::size_t max_count) const;
 
- private:
-  friend class Map;  // the only one to change them
-
+ protected:
+  // Map changes them; whoever holds a MapView cannot.
+  // NOLINTBEGIN(misc-non-private-member-variables-in-classes)
   // Slots of culled keyframes and erased points stay, so ids index directly.
   CowArray<Keyframe, 1> keyframes_;
   CowArray<MapPoint, 64> points_;
   std::size_t num_keyframes_ = 0;
   std::size_t num_points_ = 0;
+  // NOLINTEND(misc-non-private-member-variables-in-classes)
 };
 
 }  // namespace cslam
