@@ -39,7 +39,7 @@ TEST(SimulatedRoom, IsTrackedToMillimetresWithoutSensorNoise) {
   ExpectAllTracked(result);
   const double ate_m = test::FinalAte(CleanFrames().truth, result);
   RecordProperty("ate_mm", std::to_string(1e3 * ate_m));
-  EXPECT_LT(ate_m, 0.008);
+  EXPECT_LT(ate_m, 0.005);
 }
 
 TEST(SimulatedRoom, IsTrackedToACentimetreWithSensorNoise) {
