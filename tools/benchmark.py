@@ -159,7 +159,7 @@ def measure(arguments, sequence):
     """Summaries by mode."""
     summaries = {}
     with tempfile.TemporaryDirectory(prefix="cslam-benchmark-") as scratch:
-        for mode in arguments.modes:
+        for mode in arguments.modes or MODES:
             runs = []
             for i in range(1 if mode == "inline" else arguments.runs):
                 folder = pathlib.Path(scratch) / f"{mode}{i}"
@@ -178,7 +178,8 @@ def parse_arguments():
                         help="folders in TUM layout (default: ../shared/data and rendered rooms)")
     parser.add_argument("--binary", default=str(ROOT / "build/release/changing-slam"))
     parser.add_argument("--runs", type=int, default=5, help="threaded runs of each (default 5)")
-    parser.add_argument("--modes", nargs="+", choices=MODES, default=list(MODES))
+    parser.add_argument("--mode", action="append", choices=MODES, dest="modes",
+                        help="only this one; can be repeated (default: all)")
     parser.add_argument("--cache", type=pathlib.Path, default=ROOT / "build/benchmark",
                         help="where rendered rooms are kept (default build/benchmark)")
     parser.add_argument("--fail-on-missed-bar", action="store_true", help="exit with code 3 then")
