@@ -31,8 +31,8 @@ class Map : public MapView {
   // The id is taken and stands for a pose relative to forward_to from the start.
   void AddForward(KeyframeId id, KeyframeId forward_to, const Se3& T_forward_self);
 
-  // Children of the keyframe are handed to their best covisible neighbour (or its parent), its
-  // observations removed, and its pose forwarded to its parent. A map's first keyframe stays.
+  // Children of the keyframe are handed to its parent, its observations removed, and its pose
+  // forwarded to its parent. A map's first keyframe stays.
   void CullKeyframe(KeyframeId id);
 
   // A point of the given map, made when keyframe was inserted and anchored to it.

@@ -93,7 +93,7 @@ struct DepthOptions {
   double near_baselines = 40.0;     // up to this many baselines one view makes a point
   double disparity_sigma_px = 1.0;  // of a reading's disparity, at pyramid level 0
   int edge_radius_px = 4;
-  double max_edge_ratio = 0.1;
+  double max_edge_ratio = 0.03;
   double min_depth_m = 0.1;   // readings below are dropped
   double max_depth_m = 20.0;  // readings above are dropped
 
