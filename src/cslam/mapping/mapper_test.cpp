@@ -212,7 +212,7 @@ TEST_F(MapperTest, NearKeypointsBecomePointsFarOnesOnlyUntilThereAreEnough) {
   options_.min_near_points = 0;
   Mapper near_only = MakeMapper();
   near_only.Insert(FirstProposal());
-  options_.min_near_points = 300;
+  options_.min_near_points = 200;
   Mapper with_far = MakeMapper();
   with_far.Insert(FirstProposal());
   const auto far_points = [&](const Mapper& mapper) {
@@ -226,8 +226,8 @@ TEST_F(MapperTest, NearKeypointsBecomePointsFarOnesOnlyUntilThereAreEnough) {
   };
   EXPECT_EQ(far_points(near_only), 0);
   EXPECT_GT(far_points(with_far), 0);
-  EXPECT_GE(with_far.map().num_points(), 300U);
-  EXPECT_LE(with_far.map().num_points(), std::max<std::size_t>(301U, near_only.map().num_points()));
+  EXPECT_GE(with_far.map().num_points(), 200U);
+  EXPECT_LE(with_far.map().num_points(), std::max<std::size_t>(201U, near_only.map().num_points()));
 }
 
 TEST_F(MapperTest, LocalBundleAdjustmentLowersTheReprojectionError) {

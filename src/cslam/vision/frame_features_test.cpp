@@ -49,8 +49,8 @@ TEST(MeasureFeatures, TurnsDepthIntoDisparity) {
 
 TEST(MeasureFeatures, ReadsDepthAtTheNearestRawPixel) {
   RgbdFrame frame = MakeFrame(2.0F);
-  frame.depth_m.at<float>(50, 101) = 2.1F;
-  EXPECT_FLOAT_EQ(MeasureOne(frame, 100.6F, 49.7F).depth_m, 2.1F);
+  frame.depth_m.at<float>(50, 101) = 2.05F;
+  EXPECT_FLOAT_EQ(MeasureOne(frame, 100.6F, 49.7F).depth_m, 2.05F);
   EXPECT_FLOAT_EQ(MeasureOne(frame, 100.4F, 49.7F).depth_m, 2.0F);
 }
 
@@ -58,9 +58,9 @@ TEST(MeasureFeatures, UndistortsTheKeypointButNotWhereDepthIsRead) {
   Camera camera = MakeCamera();
   camera.k1 = 0.2;
   RgbdFrame frame = MakeFrame(2.0F);
-  frame.depth_m.at<float>(40, 600) = 2.1F;
+  frame.depth_m.at<float>(40, 600) = 2.05F;
   const Keypoint keypoint = MeasureOne(frame, 600.0F, 40.0F, {}, camera);
-  EXPECT_FLOAT_EQ(keypoint.depth_m, 2.1F);
+  EXPECT_FLOAT_EQ(keypoint.depth_m, 2.05F);
   EXPECT_EQ(keypoint.raw_px, Eigen::Vector2f(600.0F, 40.0F));
   const Eigen::Vector2d expected = Undistort(camera, {600.0, 40.0});
   EXPECT_NEAR(static_cast<double>(keypoint.uv_px.x()), expected.x(), 1e-3);
