@@ -23,7 +23,10 @@ LAYERS = {
     "io": LOW | {"map"},
     "eval": LOW | {"map"},
     "sim": LOW | {"map", "io"},
-    "semantics": LOW | {"map"},
+    "assets": LOW | {"map", "io", "sim"},
+    "actors": LOW | {"map", "io", "sim", "assets"},
+    "dataset": LOW | {"map", "io", "sim", "assets", "actors"},
+    "semantics": LOW | {"map", "io"},
     "messages": LOW | {"map", "semantics"},
     "tracking": STAGE,
     "mapping": STAGE,
@@ -32,7 +35,7 @@ LAYERS = {
     "run": STAGE | {"pipeline", "io", "eval"},
     "viewer": STAGE | {"pipeline", "run", "io", "eval"},
 }
-TEST_TOOLS = {"io", "eval", "sim"}  # tests of any layer may use these
+TEST_TOOLS = {"io", "eval", "sim", "assets", "actors", "dataset"}  # tests of any layer may use these
 
 THREAD_FILES = {  # all others are synchronous
     "src/cslam/util/channel.h",
