@@ -75,6 +75,21 @@ void MeshBuilder::AddBox(const Se3& T_object_box, const Eigen::Vector3d& size_m,
   }
 }
 
+void MeshBuilder::AddMesh(const Mesh& part) {
+  const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(mesh_.positions, part.positions);
+  append(mesh_.normals, part.normals);
+  append(mesh_.uvs, part.uvs);
+  for (Triangle triangle : part.triangles) {
+    for (std::uint32_t& v : triangle.vertices)
+      v += first;
+    mesh_.triangles.push_back(triangle);
+  }
+}
+
 Se3 Standing(double x, double y, double z, double yaw_rad) {
   return {ExpSo3({0.0, 0.0, yaw_rad}), {x, y, z}};
 }

@@ -94,6 +94,9 @@ class MeshBuilder {
   // A box of the given size (m) whose bottom centre is at the origin of T_object_box.
   void AddBox(const Se3& T_object_box, const Eigen::Vector3d& size_m, const BoxLook& look);
 
+  // A ready mesh, kept as it is: its materials are indices into the scene's.
+  void AddMesh(const Mesh& part);
+
   Mesh Take() { return std::move(mesh_); }
 
  private:
