@@ -95,7 +95,7 @@ std::string Bytes(double bytes) {
 
 // Measured on the demo room from 64x48 to 1280x960, within 10 %.
 double EstimatedBytes(const SequenceOptions& options, int num_frames) {
-  const double bytes_per_pixel = options.sensor_noise ? 2.5 : 1.8;
+  const double bytes_per_pixel = options.noise != SensorNoise::kOff ? 2.5 : 1.8;
   constexpr double kBytesPerFrame = 4000.0;  // small images compress less
   return num_frames *
          (kBytesPerFrame + bytes_per_pixel * static_cast<double>(options.width) * options.height);
@@ -266,7 +266,9 @@ void AddRender(CLI::App& dataset, int& exit_code) {
       ->type_name("WxH");
   app->add_option_function<std::string>(
          "--noise",
-         [&sequence](const std::string& noise) { sequence.sensor_noise = noise == "kinect"; },
+         [&sequence](const std::string& noise) {
+           sequence.noise = noise == "kinect" ? SensorNoise::kKinect : SensorNoise::kOff;
+         },
          "kinect: depth and colour as such a sensor gives them (unless told); off: exact")
       ->check(CLI::IsMember({"off", "kinect"}));
   app->add_option("--seed", sequence.seed, "Another room, wobble and noise for each")

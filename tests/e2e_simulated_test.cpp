@@ -13,13 +13,13 @@ constexpr int kNumFrames = 120;
 
 const test::TestFrames& NoisyFrames() {
   static const auto frames = test::MakeTestFrames(
-      {.width = 320, .height = 240, .num_frames = kNumFrames, .sensor_noise = true});
+      {.width = 320, .height = 240, .num_frames = kNumFrames, .noise = SensorNoise::kKinect});
   return frames;
 }
 
 const test::TestFrames& CleanFrames() {
   static const auto frames = test::MakeTestFrames(
-      {.width = 320, .height = 240, .num_frames = kNumFrames, .sensor_noise = false});
+      {.width = 320, .height = 240, .num_frames = kNumFrames, .noise = SensorNoise::kOff});
   return frames;
 }
 

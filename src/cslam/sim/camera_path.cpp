@@ -82,6 +82,10 @@ Se3 CameraPath::T_world_camera(double time_s) const {
   return PoseAt(SmoothKey(time_s)) * Se3(ExpSo3(turn_rad), shift_m);
 }
 
+CameraMotion CameraPath::Motion() const {
+  return {duration_s_, [path = *this](double time_s) { return path.T_world_camera(time_s); }};
+}
+
 Se3 PoseAt(const PathKey& key) {
   const Eigen::Vector3d forward(std::cos(key.pitch_rad) * std::cos(key.yaw_rad),
                                 std::cos(key.pitch_rad) * std::sin(key.yaw_rad),

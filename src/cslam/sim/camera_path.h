@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/geometry/se3.h"
+#include "cslam/sim/camera_motion.h"
 
 #include <Eigen/Core>
 
@@ -37,6 +38,9 @@ class CameraPath {
 
   // Before 0 and after the end the camera stands still (but for the wobble).
   Se3 T_world_camera(double time_s) const;
+
+  // The same motion as a value of its own.
+  CameraMotion Motion() const;
 
  private:
   PathKey SmoothKey(double time_s) const;

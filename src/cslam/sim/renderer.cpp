@@ -56,11 +56,14 @@ struct Renderer::ViewPoint {
 };
 
 Renderer::Renderer(Scene scene, const Camera& camera)
-    : scene_(std::move(scene)), camera_(camera), rays_(scene_) {
+    : Renderer(World{std::move(scene), {}, {}}, camera) {}
+
+Renderer::Renderer(World world, const Camera& camera)
+    : world_(std::move(world)), camera_(camera), rays_(world_.scene) {
   const std::string reason = WhyInvalid(camera);
   CSLAM_CHECK(reason.empty(), "{}", reason);
-  CheckScene(scene_);
-  MakeFacets(BakeLighting(scene_, rays_));
+  CheckScene(world_.scene);
+  MakeFacets(BakeLighting(world_.scene, rays_));
   pixel_rays_.reserve(static_cast<std::size_t>(camera.width) *
                       static_cast<std::size_t>(camera.height));
   for (int v = 0; v < camera.height; ++v) {
@@ -70,8 +73,8 @@ Renderer::Renderer(Scene scene, const Camera& camera)
 }
 
 void Renderer::MakeFacets(const VertexGains& gains) {
-  for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
-    const SceneObject& object = scene_.objects[i];
+  for (std::size_t i = 0; i < world_.scene.objects.size(); ++i) {
+    const SceneObject& object = world_.scene.objects[i];
     const Mesh& mesh = object.mesh;
     first_facet_.push_back(facets_.size());
     for (const Triangle& triangle : mesh.triangles) {
@@ -88,7 +91,8 @@ void Renderer::MakeFacets(const VertexGains& gains) {
       Eigen::Matrix2d uv_edges;
       uv_edges << (mesh.uvs[b] - mesh.uvs[a]).cast<double>(),
           (mesh.uvs[c] - mesh.uvs[a]).cast<double>();
-      const Material& material = scene_.materials[static_cast<std::size_t>(triangle.material)];
+      const Material& material =
+          world_.scene.materials[static_cast<std::size_t>(triangle.material)];
       const bool shines = material.emission > 0.0F;
       const auto gain = [&](std::uint32_t v) { return shines ? material.emission : gains[i][v]; };
       const Eigen::RowVector2d gain_edges(static_cast<double>(gain(b) - gain(a)),
@@ -122,7 +126,7 @@ Eigen::Array3f Renderer::Shade(const ViewPoint& view, const RayHit& hit,
   };
   const Eigen::Vector2f uv = facet.uv0 + facet.d_uv * from_p0;
   const float gain = facet.gain0 + facet.d_gain.dot(from_p0);
-  return gain * scene_.textures[static_cast<std::size_t>(facet.texture)].Sample(
+  return gain * world_.scene.textures[static_cast<std::size_t>(facet.texture)].Sample(
                     uv, footprint(view.step_x), footprint(view.step_y));
 }
 
@@ -175,7 +179,7 @@ void Renderer::SmoothEdges(const ViewPoint& view, std::span<const RayHit> hits, 
   }
 }
 
-RenderedView Renderer::Render(const Se3& T_world_camera) const {
+RenderedView Renderer::Render(const Se3& T_world_camera, double /*time_s*/) const {
   const ViewPoint view(camera_, T_world_camera);
   std::vector<Eigen::Vector3f> rays;
   rays.reserve(pixel_rays_.size());

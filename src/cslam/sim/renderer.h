@@ -7,6 +7,7 @@
 #include "cslam/sim/lighting.h"
 #include "cslam/sim/ray_scene.h"
 #include "cslam/sim/scene.h"
+#include "cslam/sim/world.h"
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
@@ -28,12 +29,12 @@ struct RenderedView {
 // The result depends on scene, camera and pose alone. Const: one renderer serves many threads.
 class Renderer {
  public:
-  // Bakes the light; the scene need not outlive the constructor call.
+  Renderer(World world, const Camera& camera);
   Renderer(Scene scene, const Camera& camera);
 
-  RenderedView Render(const Se3& T_world_camera) const;
+  RenderedView Render(const Se3& T_world_camera, double time_s = 0.0) const;
 
-  const Scene& scene() const { return scene_; }
+  const World& world() const { return world_; }
   const Camera& camera() const { return camera_; }
 
  private:
@@ -58,7 +59,7 @@ class Renderer {
   std::vector<std::size_t> EdgePixels(std::span<const RayHit> hits) const;
   void SmoothEdges(const ViewPoint& view, std::span<const RayHit> hits, cv::Mat bgr) const;
 
-  Scene scene_;
+  World world_;
   Camera camera_;
   RayScene rays_;
   std::vector<Facet> facets_;                // of all objects, one after the other

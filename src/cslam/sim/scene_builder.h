@@ -33,6 +33,7 @@ class SceneBuilder {
 
   Rng NextRng() { return Rng(rng_.NextUint64()); }
   Rng& rng() { return rng_; }
+  double light_cell_m() const { return light_cell_m_; }
 
   Scene Take(const Lighting& lighting);
 

@@ -3,6 +3,7 @@
 #include "cslam/sim/simulated_sequence.h"
 
 #include "cslam/sim/room.h"
+#include "cslam/sim/sensor_noise.h"
 #include "cslam/util/check.h"
 
 #include <opencv2/imgproc.hpp>
@@ -16,9 +17,24 @@
 namespace cslam {
 namespace {
 
-constexpr double kFocalPerWidth = 525.0 / 640.0;
+constexpr double kKinectFocalPerWidth = 525.0 / 640.0;
+constexpr double kD435iFocalPerWidth = 615.0 / 640.0;
 constexpr double kDemoDurationS = 20.0;
 constexpr std::int64_t kFirstStampNs = 1'000'000'000;
+
+Camera MakePinhole(int width, int height, double focal_per_width) {
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = camera.fy = focal_per_width * width;
+  camera.cx = 0.5 * (width - 1);
+  camera.cy = 0.5 * (height - 1);
+  return camera;
+}
+
+Camera CameraOf(const SequenceOptions& options) {
+  return options.camera ? *options.camera : MakeSimulatedCamera(options.width, options.height);
+}
 
 int CountFrames(const SequenceOptions& options, double duration_s) {
   if (options.num_frames > 0) return options.num_frames;
@@ -27,12 +43,23 @@ int CountFrames(const SequenceOptions& options, double duration_s) {
 
 }  // namespace
 
-SimulatedSequence::SimulatedSequence(Scene scene, CameraPath path, const SequenceOptions& options)
-    : renderer_(std::make_shared<const Renderer>(
-          std::move(scene), MakeSimulatedCamera(options.width, options.height))),
-      path_(std::move(path)),
+SimulatedSequence::SimulatedSequence(World world, CameraMotion camera,
+                                     const SequenceOptions& options)
+    : renderer_(std::make_shared<const Renderer>(std::move(world), CameraOf(options))),
+      motion_(std::move(camera)),
       options_(options),
-      num_frames_(CountFrames(options, path_.duration_s())) {}
+      num_frames_(CountFrames(options, motion_.duration_s)) {
+  options_.width = this->camera().width;
+  options_.height = this->camera().height;
+}
+
+SimulatedSequence::SimulatedSequence(Scene scene, const CameraPath& path,
+                                     const SequenceOptions& options)
+    : SimulatedSequence(World{std::move(scene), {}, {}}, path.Motion(), options) {}
+
+Stamp SimulatedSequence::start() {
+  return Stamp{kFirstStampNs};
+}
 
 Stamp SimulatedSequence::stamp(int i) const {
   CSLAM_CHECK(i >= 0 && i < num_frames_, "frame {} of {}", i, num_frames_);
@@ -40,12 +67,16 @@ Stamp SimulatedSequence::stamp(int i) const {
   return Stamp{kFirstStampNs + 1000 * std::llround(1e6 * i / options_.fps)};
 }
 
+double SimulatedSequence::time_s(int i) const {
+  return SecondsBetween(stamp(i), start());
+}
+
 Se3 SimulatedSequence::T_world_camera(int i) const {
-  return path_.T_world_camera(SecondsBetween(stamp(i), Stamp{kFirstStampNs}));
+  return motion_.T_world_camera(time_s(i));
 }
 
 RenderedView SimulatedSequence::Truth(int i) const {
-  return renderer_->Render(T_world_camera(i));
+  return renderer_->Render(T_world_camera(i), time_s(i));
 }
 
 RgbdFrame SimulatedSequence::Frame(int i) const {
@@ -57,12 +88,12 @@ RgbdFrame SimulatedSequence::Observe(int i, const RenderedView& truth) const {
   frame.id = FrameId(static_cast<std::uint32_t>(i));
   frame.stamp = stamp(i);
   const auto stream = static_cast<std::uint64_t>(i);
-  frame.bgr = options_.sensor_noise
-                  ? AddColorNoise(truth.bgr, ColorNoiseOptions{}, options_.seed, stream)
-                  : truth.bgr;
-  frame.depth_m = options_.sensor_noise ? AddDepthNoise(truth.depth_m, camera(),
-                                                        DepthNoiseOptions{}, options_.seed, stream)
-                                        : truth.depth_m;
+  const bool is_noisy = options_.noise != SensorNoise::kOff;
+  frame.bgr =
+      is_noisy ? AddColorNoise(truth.bgr, ColorNoiseOptions{}, options_.seed, stream) : truth.bgr;
+  frame.depth_m =
+      is_noisy ? AddDepthNoise(truth.depth_m, camera(), DepthNoiseOptions{}, options_.seed, stream)
+               : truth.depth_m;
   cv::cvtColor(frame.bgr, frame.gray, cv::COLOR_BGR2GRAY);
   return frame;
 }
@@ -71,7 +102,7 @@ SimulatedSequence MakeDemoSequence(const SequenceOptions& options) {
   RoomOptions room;
   room.seed = options.seed;
   room.texels_per_m = std::clamp(options.width * 1.25, 240.0, 1000.0);
-  return {MakeRoom(room), MakeDemoPath(options.seed), options};
+  return SimulatedSequence(MakeRoom(room), MakeDemoPath(options.seed), options);
 }
 
 CameraPath MakeDemoPath(std::uint64_t seed) {
@@ -96,13 +127,11 @@ CameraPath MakeDemoPath(std::uint64_t seed) {
 }
 
 Camera MakeSimulatedCamera(int width, int height) {
-  Camera camera;
-  camera.width = width;
-  camera.height = height;
-  camera.fx = camera.fy = kFocalPerWidth * width;
-  camera.cx = 0.5 * (width - 1);
-  camera.cy = 0.5 * (height - 1);
-  return camera;
+  return MakePinhole(width, height, kKinectFocalPerWidth);
+}
+
+Camera MakeD435iCamera(int width, int height) {
+  return MakePinhole(width, height, kD435iFocalPerWidth);
 }
 
 }  // namespace cslam

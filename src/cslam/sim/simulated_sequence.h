@@ -4,26 +4,45 @@
 
 #include "cslam/geometry/camera.h"
 #include "cslam/geometry/se3.h"
+#include "cslam/sim/camera_motion.h"
 #include "cslam/sim/camera_path.h"
 #include "cslam/sim/renderer.h"
 #include "cslam/sim/scene.h"
-#include "cslam/sim/sensor_noise.h"
+#include "cslam/sim/world.h"
 #include "cslam/util/stamp.h"
 #include "cslam/vision/rgbd_frame.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 
 namespace cslam {
 
-struct SequenceOptions {
-  int width = 640;           // px; 4:3 keeps the usual field of view
-  int height = 480;          // px
-  double fps = 30.0;         // frames per second of the story; a lower rate resamples it
-  int num_frames = 0;        // 0: the whole path; otherwise the story ends (or rests) there
-  bool sensor_noise = true;  // off: exact depth, clean colour
-  std::uint64_t seed = 1;    // of room, wobble and noise
+enum class SensorNoise {
+  kOff,     // exact depth, clean and sharp colour
+  kKinect,  // structured light
+  kD435i,   // active stereo
 };
+
+struct SequenceOptions {
+  int width = 640;     // px; 4:3 keeps the usual field of view
+  int height = 480;    // px
+  double fps = 30.0;   // frames per second of the story; a lower rate resamples it
+  int num_frames = 0;  // 0: the whole story; otherwise it ends (or the camera rests) there
+  SensorNoise noise = SensorNoise::kKinect;
+  std::uint64_t seed = 1;  // of noise (and, in the demo, of room and wobble)
+  // None: MakeSimulatedCamera(width, height); otherwise it decides about the size, too.
+  std::optional<Camera> camera = std::nullopt;
+  // Factor on the light that reaches the sensor, by time of the story (s); empty: always 1. A dark
+  // picture is as noisy as a bright one, so relatively more.
+  std::function<double(double time_s)> exposure = {};
+  // Time the shutter is open (s): how much motion blurs the colour, unless noise is off.
+  double shutter_s = 0.0;
+};
+
+// What hand-held and robot sequences use.
+constexpr double kUsualShutterS = 0.008;
 
 // A sequence that is rendered when asked for, frame by frame, in any order, from any thread:
 //
@@ -34,15 +53,22 @@ struct SequenceOptions {
 // Frame i is the same bytes whatever else was asked for. Copies share scene and light.
 class SimulatedSequence {
  public:
-  SimulatedSequence(Scene scene, CameraPath path, const SequenceOptions& options);
+  SimulatedSequence(World world, CameraMotion camera, const SequenceOptions& options);
+  // A scene in which nothing happens.
+  SimulatedSequence(Scene scene, const CameraPath& path, const SequenceOptions& options);
 
   int size() const { return num_frames_; }
   const Camera& camera() const { return renderer_->camera(); }
-  const Scene& scene() const { return renderer_->scene(); }
+  const World& world() const { return renderer_->world(); }
+  const Scene& scene() const { return world().scene; }
   const SequenceOptions& options() const { return options_; }
+
+  // Stamp of time 0 of the story.
+  static Stamp start();
 
   // 0 <= i < size() in all of these.
   Stamp stamp(int i) const;
+  double time_s(int i) const;  // since the story's start
   Se3 T_world_camera(int i) const;
   RgbdFrame Frame(int i) const;                               // as the sensor sees it
   RenderedView Truth(int i) const;                            // without noise
@@ -50,7 +76,7 @@ class SimulatedSequence {
 
  private:
   std::shared_ptr<const Renderer> renderer_;
-  CameraPath path_;
+  CameraMotion motion_;
   SequenceOptions options_;
   int num_frames_ = 0;
 };
@@ -64,5 +90,8 @@ CameraPath MakeDemoPath(std::uint64_t seed);
 
 // A pinhole camera of the given size with the field of view of a Kinect (fx 525 at 640 px).
 Camera MakeSimulatedCamera(int width, int height);
+
+// The colour camera of a RealSense D435i (fx 615 at 640 px).
+Camera MakeD435iCamera(int width, int height);
 
 }  // namespace cslam

@@ -20,7 +20,7 @@ namespace {
 // The tour at 320 x 240 without noise; made once, for the room takes half a second.
 const SimulatedSequence& CleanTour() {
   static const SimulatedSequence tour =
-      MakeDemoSequence({.width = 320, .height = 240, .sensor_noise = false});
+      MakeDemoSequence({.width = 320, .height = 240, .noise = SensorNoise::kOff});
   return tour;
 }
 

@@ -63,6 +63,9 @@ struct World {
   std::map<int, Animation> animations;  // by instance id
 };
 
+// The same for an object of a world (not for animated ones, whose motion is the animation's).
+ObjectState StateAt(const World& world, int instance, double time_s);
+
 // Times at which something comes to rest, leaves its place, appears or disappears, in order; the
 // world's resting part is the same between two of them.
 std::vector<double> TimesOfChange(const World& world);

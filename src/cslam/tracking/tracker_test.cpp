@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 const test::TestFrames& Frames() {
   static const auto frames = test::MakeTestFrames(
-      {.width = 320, .height = 240, .fps = 15.0, .num_frames = 40, .sensor_noise = false});
+      {.width = 320, .height = 240, .fps = 15.0, .num_frames = 40, .noise = SensorNoise::kOff});
   return frames;
 }
 
