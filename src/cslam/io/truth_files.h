@@ -65,7 +65,7 @@ struct TrueObject {
   bool is_deformable = false;  // people: the box is that of the body standing or sitting
   Eigen::Vector3d box_center = Eigen::Vector3d::Zero();  // m, object frame
   Eigen::Vector3d box_size_m = Eigen::Vector3d::Zero();  // along the object's axes
-  std::vector<TrueInterval> intervals;                   // in order of time
+  std::vector<TrueInterval> intervals = {};              // in order of time
 };
 
 struct TrueObjects {
@@ -87,8 +87,8 @@ struct TrueChange {
   int class_id = -1;
   int new_instance = 0;  // kReplaced: what stands there now; otherwise 0
   int new_class_id = -1;
-  std::optional<Se3> from;          // T_world_object before; none for kAdded
-  std::optional<Se3> to;            // and after; none for kRemoved
+  std::optional<Se3> from = {};     // T_world_object before; none for kAdded
+  std::optional<Se3> to = {};       // and after; none for kRemoved
   bool is_carried_in_view = false;  // somebody moves it while the camera may watch
 };
 
