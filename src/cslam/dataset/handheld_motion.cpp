@@ -150,7 +150,7 @@ CameraMotion XyzHand(const PathKey& home, double duration_s, double mean_speed_m
   constexpr double kRoundingS = 0.45;
   constexpr double kTurnRad = 2.5 * kDegree;  // no hand keeps the direction on the way
   // Rounding and the meeting of strokes cost some way, which the tremor makes up for in part.
-  const double stroke_speed_m_s = 1.04 * mean_speed_m_s;
+  const double stroke_speed_m_s = 1.12 * mean_speed_m_s;
   Rng rng(seed, 0, 3);
   std::vector<TimedView> views{Near(home, 0.0, {0.0, 0.0, 0.0})};
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
@@ -184,15 +184,16 @@ CameraMotion RpyHand(const PathKey& home, double duration_s, std::uint64_t seed)
                                                                    {0.0, 0.0, 0.0}}};
   constexpr double kTurnDegPerS = 24.0;
   constexpr double kRoundingS = 0.35;
-  constexpr double kArmM = 0.15;  // the camera is turned about the wrist behind it
+  constexpr double kArmM = 0.22;  // the camera is turned about the elbow behind it
   Rng rng(seed, 0, 3);
   std::vector<TimedView> views{Near(home, 0.0, {0.0, 0.0, 0.0})};
   Eigen::Vector3d from_deg = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; views.back().time_s < duration_s; ++i) {
     const Eigen::Vector3d to_deg = Eigen::Map<const Eigen::Vector3d>(kCorners[i % 12].data());
-    const Eigen::Vector3d arm_m(-kArmM * std::sin(to_deg.x() * kDegree) + rng.Uniform(-0.04, 0.04),
-                                kArmM * std::sin(to_deg.y() * kDegree) + rng.Uniform(-0.04, 0.04),
-                                rng.Uniform(-0.04, 0.04));
+    const Eigen::Vector3d arm_m(
+        -kArmM * std::sin(to_deg.x() * kDegree) + rng.Uniform(-0.085, 0.085),
+        kArmM * std::sin(to_deg.y() * kDegree) + rng.Uniform(-0.085, 0.085),
+        rng.Uniform(-0.085, 0.085));
     const double turn_s = (to_deg - from_deg).norm() / kTurnDegPerS;
     views.push_back(Near(home, views.back().time_s + turn_s, arm_m, to_deg * kDegree));
     from_deg = to_deg;
