@@ -39,8 +39,15 @@ enum class PropKind {
   kCarton,       // kNoClass: a cardboard box, 0.4 m
 };
 
+constexpr int kNumPropKinds = static_cast<int>(PropKind::kCarton) + 1;
+
 int CocoClassOf(PropKind kind);
 std::string_view NameOf(PropKind kind);  // "teddy_bear"
+
+// The box of a kind (m), the same for every look and variant.
+Eigen::Vector3d StandardSizeM(PropKind kind);
+// The height of its seat or top (m), for looks that do not know better.
+double StandardTopM(PropKind kind);
 
 // What a floor, wall or rug is made of.
 enum class SurfaceKind { kParquet, kCarpet, kRug, kTiles, kBrick, kPlaster, kWallpaper, kWood };

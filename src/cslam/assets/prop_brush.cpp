@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/assets/prop_brush.h"
+
+#include "cslam/sim/paint_tools.h"
+#include "cslam/sim/surface_paint.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace cslam {
+
+cv::Size PropBrush::Texels(double width_m, double height_m) const {
+  return TexelSize(width_m, height_m, texels_per_m_);
+}
+
+int PropBrush::Wood() {
+  const std::array<cv::Scalar, 4> tones{cv::Scalar(70, 112, 156), cv::Scalar(104, 158, 196),
+                                        cv::Scalar(44, 66, 98), cv::Scalar(178, 192, 204)};
+  const cv::Scalar& tone = tones[rng_.Index(tones.size())];
+  return scene_.AddSurface(PaintWood(Texels(kPatchM, kPatchM), texels_per_m_, tone, NextRng()),
+                           kPatchM, kPatchM);
+}
+
+int PropBrush::Fabric(double saturation, double value) {
+  const cv::Scalar color = RandomColor(rng_, saturation, value);
+  return scene_.AddSurface(PaintFabric(Texels(kPatchM, kPatchM), texels_per_m_, color, NextRng()),
+                           kPatchM, kPatchM);
+}
+
+int PropBrush::RichFabric() {
+  constexpr double kRichM = 2.0 * kPatchM;
+  return scene_.AddSurface(PaintRichFabric(Texels(kRichM, kRichM), texels_per_m_, NextRng()),
+                           kRichM, kRichM);
+}
+
+int PropBrush::Plain(const cv::Scalar& color_bgr) {
+  return scene_.AddSurface(PaintPlain(Texels(kPatchM, kPatchM), color_bgr, NextRng()), kPatchM,
+                           kPatchM);
+}
+
+int PropBrush::Fur(const cv::Scalar& color_bgr) {
+  const cv::Size size = Texels(kPatchM, kPatchM);
+  const cv::Mat noise = FractalNoise(size, {0.04 * texels_per_m_, 0.06 * texels_per_m_}, 5, rng_);
+  return scene_.AddSurface(PaintNoise(noise, color_bgr, 26.0, 8.0, rng_), kPatchM, kPatchM);
+}
+
+cv::Mat PaintRichFabric(cv::Size size, double texels_per_m, Rng rng) {
+  const cv::Scalar ground = RandomColor(rng, 0.55, rng.Uniform(0.35, 0.55));
+  cv::Mat image = PaintNoise(FractalNoise(size, {0.2 * texels_per_m, 0.2 * texels_per_m}, 6, rng),
+                             ground, 26.0, 7.0, rng);
+  const double area_m2 = size.area() / (texels_per_m * texels_per_m);
+  constexpr double kMotifsPerM2 = 420.0;
+  const int motifs = static_cast<int>(kMotifsPerM2 * area_m2);
+  for (int i = 0; i < motifs; ++i) {
+    const cv::Point at(RandomInt(rng, 0, size.width), RandomInt(rng, 0, size.height));
+    const double size_m =
+        rng.Uniform(0.006, 0.035) * rng.Uniform(0.4, 1.0) * (i % 9 == 0 ? 2.0 : 1.0);
+    const int length = std::max(2, static_cast<int>(size_m * texels_per_m));
+    const cv::Scalar color = RandomColor(rng, rng.Uniform(0.2, 0.85), rng.Uniform(0.1, 1.0));
+    const int petals = RandomInt(rng, 1, 6);
+    const double turn_deg = rng.Uniform(0.0, 360.0);
+    for (int p = 0; p < petals; ++p) {  // one petal is a leaf, several are a flower
+      const double angle_deg = turn_deg + 360.0 * p / petals + rng.Uniform(-12.0, 12.0);
+      const double angle_rad = angle_deg * CV_PI / 180.0;
+      const cv::Point centre = at + cv::Point(static_cast<int>(0.8 * length * std::cos(angle_rad)),
+                                              static_cast<int>(0.8 * length * std::sin(angle_rad)));
+      cv::ellipse(image, centre, {length, std::max(1, length / 3)}, angle_deg, 0.0, 360.0,
+                  Shift(color, rng.Uniform(-18.0, 18.0)), cv::FILLED, cv::LINE_AA);
+    }
+    cv::circle(image, at, std::max(1, length / 3), Shift(color, rng.Uniform(-90.0, 90.0)),
+               cv::FILLED, cv::LINE_AA);
+  }
+  return image;
+}
+
+}  // namespace cslam
