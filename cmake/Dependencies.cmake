@@ -2,7 +2,7 @@
 # Every third-party package, in one place. Targets name what they need in their own CMakeLists.txt.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc features2d)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc features2d dnn)
 find_package(Ceres 2.1 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)

@@ -13,7 +13,7 @@ import sys
 
 # Folder -> folders below it that it may include. Each may include itself as well.
 LOW = {"util", "geometry", "vision"}
-STAGE = LOW | {"map", "semantics", "messages", "optim"}
+STAGE = LOW | {"map", "semantics", "objects", "messages", "optim"}
 LAYERS = {
     "util": set(),
     "geometry": {"util"},
@@ -27,7 +27,8 @@ LAYERS = {
     "actors": LOW | {"map", "io", "sim", "assets"},
     "dataset": LOW | {"map", "io", "sim", "assets", "actors"},
     "semantics": LOW | {"map", "io"},
-    "messages": LOW | {"map", "semantics"},
+    "objects": LOW | {"semantics"},
+    "messages": LOW | {"map", "semantics", "objects"},
     "tracking": STAGE,
     "mapping": STAGE,
     "loop": STAGE,
@@ -61,6 +62,7 @@ PRIVATE_LIBRARIES = {
     "yaml-cpp/": {"io"},
     "nlohmann/": {"io", "eval", "pipeline"},
     "CLI/": set(),
+    "opencv2/dnn": {"semantics"},
     "opencv2/imgproc": None,  # None: the .cpp files of every folder
     "opencv2/features2d": None,
     "opencv2/imgcodecs": None,
