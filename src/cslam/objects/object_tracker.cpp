@@ -1,0 +1,402 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/objects/object_tracker.h"
+
+#include "cslam/util/options.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cslam {
+namespace {
+
+// Depth readings that a region must touch on the picture's border, or beside something nearer, to
+// count as cut off.
+bool IsClipped(const DepthRegion& region) {
+  constexpr int kMinTouching = 3;
+  int touching = 0;
+  const cv::Mat& mask = region.mask;
+  for (int u = 0; u < mask.cols; ++u) {
+    touching += mask.at<std::uint8_t>(0, u) != 0 ? 1 : 0;
+    touching += mask.at<std::uint8_t>(mask.rows - 1, u) != 0 ? 1 : 0;
+  }
+  for (int v = 0; v < mask.rows; ++v) {
+    touching += mask.at<std::uint8_t>(v, 0) != 0 ? 1 : 0;
+    touching += mask.at<std::uint8_t>(v, mask.cols - 1) != 0 ? 1 : 0;
+  }
+  return touching >= kMinTouching;
+}
+
+// Whether something clearly nearer stands right beside the region's pixels.
+bool IsCovered(const DepthRegion& region, const DepthView& view) {
+  constexpr float kNearerM = 0.25F;
+  constexpr double kMinShare = 0.06;  // of the region's outline
+  int outline = 0;
+  int covered = 0;
+  for (int v = 1; v + 1 < region.mask.rows; ++v) {
+    for (int u = 1; u + 1 < region.mask.cols; ++u) {
+      if (region.mask.at<std::uint8_t>(v, u) == 0) continue;
+      const float own = view.DepthM(u, v) > 0.0F ? view.DepthM(u, v) : region.median_m;
+      for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        if (region.mask.at<std::uint8_t>(v + dv, u + du) != 0) continue;
+        ++outline;
+        const float other = view.DepthM(u + du, v + dv);
+        if (other > 0.0F && other < own - kNearerM) ++covered;
+      }
+    }
+  }
+  return outline > 0 && covered > kMinShare * outline;
+}
+
+}  // namespace
+
+void Describe(OptionList& list, ObjectTrackerOptions& o) {
+  list.Add("label_movable", o.label_movable,
+           "Hold back the keypoints of things that may move, not those of people alone.");
+  list.Add("filter_motion", o.filter_motion,
+           "Use movable things again once their filter finds them static.");
+  list.Add("min_iou", o.min_iou, {0.01, 1.0}, "",
+           "Overlap of boxes from which on a detection is taken for a known object.");
+  list.Add("bridge", o.bridge_s, {0.0, 60.0}, "s",
+           "How long an object is carried on by its depth while the detector misses it.");
+  list.Add("max_history", o.max_history_frames, {1, 1000}, "frames",
+           "How late detections may come.");
+  list.Add("max_growth", o.max_growth, {1.0, 100.0}, "",
+           "A carried region stops growing at so many times its detected size.");
+  list.Group("region", o.region);
+  list.Group("labels", o.labels);
+  list.Group("filter", o.filter);
+  list.Group("unknown", o.unknown);
+}
+
+ObjectTracker::ObjectTracker(const Camera& camera, const ObjectTrackerOptions& options)
+    : camera_(camera), options_(options) {
+  RuleOf(options.labels);  // throws for an unknown one
+}
+
+void ObjectTracker::Clear() {
+  objects_.clear();
+  history_.clear();
+  now_ = Frame{};
+  newest_taken_.reset();
+}
+
+double ObjectTracker::AreaM2(const DepthRegion& region) const {
+  const double metres_per_px = static_cast<double>(region.median_m) / camera_.fx * now_.view.step;
+  return region.num_pixels * metres_per_px * metres_per_px;
+}
+
+void ObjectTracker::Observe(FrameId frame, Stamp stamp, DepthView view,
+                            const Se3& T_world_predicted, const Se3& T_world_last,
+                            const Detections* detections) {
+  MoveWorld(T_world_last);
+  now_ = Frame{frame, stamp, std::move(view), T_world_predicted, false, {}};
+  for (Object& object : objects_)
+    object.is_detected_now = false;
+  for (Object& object : objects_) {
+    const DepthRegion region = std::move(object.region);
+    Carry(object, history_.back(), region);
+  }
+  if (detections != nullptr && (!newest_taken_ || *newest_taken_ < detections->frame)) {
+    newest_taken_ = detections->frame;
+    TakeIn(*detections);
+  }
+  Forget();
+  for (const Object& object : objects_)
+    now_.objects.push_back({object.id, object.class_id, object.box});
+}
+
+// Corrections of the map move the world: all that is kept in it moves along.
+void ObjectTracker::MoveWorld(const Se3& T_world_last) {
+  const auto last =
+      std::find_if(history_.rbegin(), history_.rend(), [](const Frame& f) { return f.is_settled; });
+  if (last == history_.rend()) return;
+  const Se3 T_new_old = T_world_last * last->T_world_camera.Inverse();
+  for (Frame& past : history_)
+    past.T_world_camera = T_new_old * past.T_world_camera;
+  for (Object& object : objects_) {
+    if (object.filter) object.filter->MoveWorld(T_new_old);
+  }
+}
+
+// Moves what was seen in an earlier frame into the present one.
+void ObjectTracker::Carry(Object& object, const Frame& from, const DepthRegion& region) const {
+  constexpr int kMinUpdates = 4;  // before a velocity means anything
+  const Se3 T_now_from = now_.T_world_camera.Inverse() * from.T_world_camera;
+  const double dt_s = SecondsBetween(now_.stamp, from.stamp);
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  if (object.filter && object.filter->num_updates() >= kMinUpdates) {
+    shift = now_.T_world_camera.R().transpose() * object.filter->velocity() * dt_s;
+  }
+  DepthRegion carried = CarryRegion(from.view, region, now_.view, T_now_from, shift,
+                                    object.is_person(), options_.region);
+  if (!carried.empty() && object.reference_area_m2 > 0.0 &&
+      AreaM2(carried) > options_.max_growth * object.reference_area_m2) {
+    // It has run into a neighbour: take only what was there before.
+    RegionOptions tight = options_.region;
+    tight.carry_margin_px = 0.0;
+    carried =
+        CarryRegion(from.view, region, now_.view, T_now_from, shift, object.is_person(), tight);
+  }
+  object.region = std::move(carried);
+  if (!object.region.empty()) object.box = object.region.box;
+}
+
+void ObjectTracker::TakeIn(const Detections& detections) {
+  if (detections.frame == now_.id) {
+    for (const Object& object : objects_)
+      now_.objects.push_back({object.id, object.class_id, object.box});
+    Associate(now_, detections);
+    now_.objects.clear();
+    return;
+  }
+  const auto past = std::find_if(history_.begin(), history_.end(),
+                                 [&](const Frame& f) { return f.id == detections.frame; });
+  if (past != history_.end()) Associate(*past, detections);
+}
+
+// Nearer things first, so that those behind them leave out what is covered.
+std::vector<DepthRegion> ObjectTracker::SegmentAll(const Frame& frame,
+                                                   const Detections& detections) const {
+  const std::size_t count = detections.objects.size();
+  std::vector<DepthRegion> regions(count);
+  std::vector<std::size_t> order(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Detection& detection = detections.objects[i];
+    order[i] = i;
+    regions[i] = SegmentBox(frame.view, detection.box, detection.class_id == kPersonClass, {},
+                            options_.region);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const float za = regions[a].empty() ? std::numeric_limits<float>::max() : regions[a].median_m;
+    const float zb = regions[b].empty() ? std::numeric_limits<float>::max() : regions[b].median_m;
+    return za < zb;
+  });
+  cv::Mat taken;
+  for (const std::size_t i : order) {
+    const Detection& detection = detections.objects[i];
+    bool overlaps = false;
+    for (std::size_t j = 0; j < count; ++j)
+      overlaps = overlaps || (j != i && Iou(detections.objects[j].box, detection.box) > 0.0);
+    if (overlaps && !taken.empty()) {
+      regions[i] = SegmentBox(frame.view, detection.box, detection.class_id == kPersonClass, taken,
+                              options_.region);
+    }
+    if (regions[i].empty()) continue;
+    if (taken.empty()) taken = cv::Mat::zeros(regions[i].mask.size(), CV_8UC1);
+    taken.setTo(255, regions[i].mask);
+  }
+  return regions;
+}
+
+// Best overlaps first, one to one, ties by id (Algorithm 2).
+void ObjectTracker::Associate(const Frame& frame, const Detections& detections) {
+  std::vector<DepthRegion> regions = SegmentAll(frame, detections);
+  struct Pair {
+    double iou;
+    std::size_t detection;
+    TrackId id;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t d = 0; d < detections.objects.size(); ++d) {
+    for (const PastObject& known : frame.objects) {
+      if (known.class_id != detections.objects[d].class_id && known.class_id >= 0) continue;
+      const double iou = Iou(known.box, detections.objects[d].box);
+      if (iou >= options_.min_iou) pairs.push_back({iou, d, known.id});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.iou != b.iou ? a.iou > b.iou : a.id < b.id;
+  });
+  std::vector<std::optional<TrackId>> match(detections.objects.size());
+  std::vector<TrackId> used;
+  for (const Pair& pair : pairs) {
+    if (match[pair.detection] || std::find(used.begin(), used.end(), pair.id) != used.end()) {
+      continue;
+    }
+    match[pair.detection] = pair.id;
+    used.push_back(pair.id);
+  }
+  for (std::size_t d = 0; d < detections.objects.size(); ++d) {
+    const Detection& detection = detections.objects[d];
+    auto object = objects_.end();
+    if (match[d]) {
+      object = std::find_if(objects_.begin(), objects_.end(),
+                            [&](const Object& o) { return o.id == *match[d]; });
+    }
+    if (object == objects_.end()) {
+      Object fresh;
+      fresh.id = TrackId(next_track_++);
+      objects_.push_back(std::move(fresh));
+      object = std::prev(objects_.end());
+    }
+    Renew(*object, detection, std::move(regions[d]), frame);
+  }
+}
+
+void ObjectTracker::Renew(Object& object, const Detection& detection, DepthRegion region,
+                          const Frame& frame) {
+  object.class_id = detection.class_id;
+  object.score = detection.score;
+  object.detected = frame.stamp;
+  object.box = detection.box;
+  object.is_detected_now = frame.id == now_.id;
+  if (!region.empty()) object.reference_area_m2 = AreaM2(region);
+  if (object.is_detected_now) {
+    object.region = std::move(region);
+  } else {
+    const DepthRegion before = object.region;
+    Carry(object, frame, region);
+    if (object.region.empty()) object.region = before;
+    if (!object.region.empty()) object.box = object.region.box;
+  }
+}
+
+// The newest settled frame that is at least so old.
+const ObjectTracker::Frame* ObjectTracker::SettledBefore(double age_s) const {
+  const auto frame = std::find_if(history_.rbegin(), history_.rend(), [&](const Frame& f) {
+    return f.is_settled && SecondsBetween(now_.stamp, f.stamp) >= age_s;
+  });
+  return frame == history_.rend() ? nullptr : &*frame;
+}
+
+int ObjectTracker::FindUnknown(const Se3& T_world_camera, int num_inliers) {
+  if (!options_.unknown.enabled || num_inliers < options_.unknown.min_inliers) return 0;
+  constexpr double kSlackS = 1e-3;  // stamps are not exact multiples of a frame's time
+  std::vector<EarlierView> earlier;
+  for (const double age_s :
+       {options_.unknown.reference_age_s, 0.5 * options_.unknown.reference_age_s}) {
+    const Frame* frame = SettledBefore(age_s - kSlackS);
+    if (frame == nullptr || (!earlier.empty() && earlier.back().view == &frame->view)) continue;
+    earlier.push_back({&frame->view, frame->T_world_camera.Inverse() * T_world_camera});
+  }
+  const auto regions = FindMovedRegions(now_.view, earlier, DynamicMask(), options_.unknown);
+  for (const DepthRegion& region : regions)
+    AddUnknown(region, T_world_camera);
+  return static_cast<int>(regions.size());
+}
+
+// A new piece of an unknown thing already followed renews it.
+void ObjectTracker::AddUnknown(const DepthRegion& region, const Se3& T_world_camera) {
+  const auto known = std::find_if(objects_.begin(), objects_.end(), [&](const Object& o) {
+    return o.class_id < 0 && !o.region.empty() && !Intersect(o.box, region.box).empty() &&
+           std::abs(o.region.median_m - region.median_m) <
+               static_cast<float>(options_.unknown.reach_m);
+  });
+  if (known != objects_.end()) {
+    cv::Mat both = known->region.mask | region.mask;
+    DepthRegion joined = GrowRegion(now_.view, both, both, 2.0 * options_.unknown.reach_m, 1.0);
+    if (joined.empty()) return;
+    known->region = std::move(joined);
+    known->box = known->region.box;
+    known->detected = now_.stamp;
+    known->reference_area_m2 = AreaM2(known->region);
+    return;
+  }
+  Object fresh;
+  fresh.id = TrackId(next_track_++);
+  fresh.detected = now_.stamp;
+  fresh.box = region.box;
+  fresh.region = region;
+  fresh.reference_area_m2 = AreaM2(region);
+  fresh.is_detected_now = true;
+  fresh.filter.emplace(T_world_camera, CentreMeasurement{.centre_camera = region.centre_camera});
+  fresh.filtered = now_.stamp;
+  objects_.push_back(std::move(fresh));
+  now_.objects.push_back({objects_.back().id, -1, region.box});
+}
+
+// Objects that nothing has confirmed for a while.
+void ObjectTracker::Forget() {
+  constexpr double kBlindS = 0.15;  // a box without any depth lives no longer than this
+  std::erase_if(objects_, [&](const Object& object) {
+    const double age_s = SecondsBetween(now_.stamp, object.detected);
+    return age_s >
+           (object.region.empty() ? std::min(kBlindS, options_.bridge_s) : options_.bridge_s);
+  });
+}
+
+KeypointLabel ObjectTracker::LabelOf(const Object& object) const {
+  if (object.is_person() || object.class_id < 0) return KeypointLabel::kDynamic;
+  if (!options_.label_movable) return KeypointLabel::kStatic;
+  const bool is_static =
+      options_.filter_motion && object.filter && object.filter->motion() == ObjectMotion::kStatic;
+  return is_static ? KeypointLabel::kMovable : KeypointLabel::kDynamic;
+}
+
+std::vector<KeypointSemantics> ObjectTracker::Label(std::span<const Keypoint> keypoints) const {
+  std::vector<LabelledThing> things;
+  for (const Object& object : objects_) {
+    const KeypointLabel label = LabelOf(object);
+    if (label == KeypointLabel::kStatic) continue;
+    things.push_back({object.box, object.region, object.class_id, object.id, label});
+  }
+  return LabelKeypoints(keypoints, things, now_.view, options_.labels);
+}
+
+cv::Mat ObjectTracker::DynamicMask() const {
+  cv::Mat mask;
+  for (const Object& object : objects_) {
+    if (LabelOf(object) != KeypointLabel::kDynamic || object.region.empty()) continue;
+    if (mask.empty()) mask = cv::Mat::zeros(object.region.mask.size(), CV_8UC1);
+    mask.setTo(255, object.region.mask);
+  }
+  return mask;
+}
+
+void ObjectTracker::Settle(const Se3& T_world_camera,
+                           const Eigen::Matrix3d& position_covariance_m2) {
+  now_.T_world_camera = T_world_camera;
+  for (Object& object : objects_) {
+    if (object.region.empty()) continue;
+    const CentreMeasurement measurement{
+        .centre_camera = object.region.centre_camera,
+        .is_clipped = IsClipped(object.region) || IsCovered(object.region, now_.view),
+        .camera_covariance_m2 = position_covariance_m2};
+    if (!object.filter) {
+      object.filter.emplace(T_world_camera, measurement);
+    } else if (object.filtered < now_.stamp) {
+      const double dt_s = SecondsBetween(now_.stamp, object.filtered);
+      object.filter->Predict(dt_s, options_.filter);
+      object.filter->Update(T_world_camera, measurement, dt_s, options_.filter);
+    }
+    object.filtered = now_.stamp;
+  }
+  now_.is_settled = true;
+  Remember();
+}
+
+void ObjectTracker::SettleLost() {
+  Remember();
+}
+
+void ObjectTracker::Remember() {
+  history_.push_back(now_);
+  while (static_cast<int>(history_.size()) > options_.max_history_frames)
+    history_.pop_front();
+}
+
+std::vector<TrackedObject> ObjectTracker::objects() const {
+  std::vector<TrackedObject> result;
+  for (const Object& object : objects_) {
+    TrackedObject out;
+    out.track = object.id;
+    out.class_id = object.class_id;
+    out.score = object.score;
+    out.box = object.box;
+    out.label = LabelOf(object);
+    out.is_detected = object.is_detected_now;
+    if (object.filter) {
+      out.motion = object.filter->motion();
+      out.p_world = object.filter->position();
+      out.velocity_mps = object.filter->velocity();
+    }
+    result.push_back(out);
+  }
+  return result;
+}
+
+}  // namespace cslam

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/objects/depth_region.h"
+#include "cslam/objects/keypoint_labels.h"
+#include "cslam/objects/motion_regions.h"
+#include "cslam/objects/object_filter.h"
+#include "cslam/semantics/detection.h"
+#include "cslam/util/id.h"
+#include "cslam/util/stamp.h"
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cslam {
+
+class OptionList;
+
+struct ObjectTrackerOptions {
+  bool label_movable = true;    // hold back the keypoints of things that may move
+  bool filter_motion = true;    // trust movable things again once the filter finds them static
+  double min_iou = 0.3;         // for a detection to be a known object
+  double bridge_s = 1.0;        // how long an undetected object is carried on
+  int max_history_frames = 30;  // how old a frame may be whose detections come late
+  double max_growth = 1.5;      // of a carried region's size, before it no longer grows
+  RegionOptions region;
+  LabelOptions labels;
+  ObjectFilterOptions filter;
+  MotionRegionOptions unknown;
+};
+void Describe(OptionList& list, ObjectTrackerOptions& options);
+
+// A thing followed from frame to frame, as others may see it.
+struct TrackedObject {
+  TrackId track;
+  int class_id = -1;  // COCO; -1: moves, but no detector named it
+  double score = 0.0;
+  Box box;  // in the newest frame, full-size px
+  ObjectMotion motion = ObjectMotion::kUnknown;
+  KeypointLabel label = KeypointLabel::kDynamic;           // of its keypoints
+  Eigen::Vector3d p_world = Eigen::Vector3d::Zero();       // m
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  // world
+  bool is_detected = false;  // by the detector in this very frame; otherwise carried on
+};
+
+// Follows detected things through the frames (Algorithm 2 and the object filter of the paper), and
+// says which keypoints are theirs. Detections may be late: they are matched in the frame they
+// belong to and carried forward. Synchronous; one call of each of Observe() and Settle() a frame.
+class ObjectTracker {
+ public:
+  ObjectTracker(const Camera& camera, const ObjectTrackerOptions& options);
+
+  // Before the frame's pose is known. T_world_predicted: where the camera probably is;
+  // T_world_last: where it was in the last settled frame, in the world as it is now.
+  void Observe(FrameId frame, Stamp stamp, DepthView view, const Se3& T_world_predicted,
+               const Se3& T_world_last, const Detections* detections);
+
+  // Labels for keypoints of the frame observed.
+  std::vector<KeypointSemantics> Label(std::span<const Keypoint> keypoints) const;
+
+  // Thumbnail mask of what keypoints must not come from; empty if nothing.
+  cv::Mat DynamicMask() const;
+
+  // Looks for things that move though no detector named them, given a good first guess of the
+  // pose and its inliers; they become objects without a class. Returns how many were found; labels
+  // and mask know them from then on.
+  int FindUnknown(const Se3& T_world_camera, int num_inliers);
+
+  // Once the pose is known: the filters take in what was seen.
+  void Settle(const Se3& T_world_camera, const Eigen::Matrix3d& position_covariance_m2);
+  // Instead, where the frame's pose was not found: objects are carried on, no filter learns.
+  void SettleLost();
+
+  // The objects of the newest frame, by id.
+  std::vector<TrackedObject> objects() const;
+
+  const DepthView& view() const { return now_.view; }
+  void Clear();
+
+ private:
+  struct Object {
+    TrackId id;
+    int class_id = -1;
+    double score = 0.0;
+    Box box;
+    DepthRegion region;
+    std::optional<ObjectFilter> filter;  // none before its first depth
+    Stamp detected;                      // the newest frame a detector saw it in
+    Stamp filtered;                      // the newest frame its filter took in
+    double reference_area_m2 = 0.0;      // of the region as detected
+    bool is_detected_now = false;
+    bool is_person() const { return class_id == kPersonClass; }
+  };
+  struct PastObject {
+    TrackId id;
+    int class_id;
+    Box box;
+  };
+  struct Frame {
+    FrameId id;
+    Stamp stamp;
+    DepthView view;
+    Se3 T_world_camera;  // predicted until settled
+    bool is_settled = false;
+    std::vector<PastObject> objects;
+  };
+
+  void MoveWorld(const Se3& T_world_last);
+  void Remember();
+  void Carry(Object& object, const Frame& from, const DepthRegion& region) const;
+  void TakeIn(const Detections& detections);
+  void Associate(const Frame& frame, const Detections& detections);
+  std::vector<DepthRegion> SegmentAll(const Frame& frame, const Detections& detections) const;
+  void Renew(Object& object, const Detection& detection, DepthRegion region, const Frame& frame);
+  void Forget();
+  void AddUnknown(const DepthRegion& region, const Se3& T_world_camera);
+  const Frame* SettledBefore(double age_s) const;
+  KeypointLabel LabelOf(const Object& object) const;
+  double AreaM2(const DepthRegion& region) const;
+
+  const Camera camera_;
+  const ObjectTrackerOptions options_;
+  std::vector<Object> objects_;  // by id
+  std::deque<Frame> history_;    // settled frames, oldest first
+  Frame now_;
+  std::uint32_t next_track_ = 0;
+  std::optional<FrameId> newest_taken_;
+};
+
+}  // namespace cslam
