@@ -45,7 +45,9 @@ THREAD_FILES = {  # all others are synchronous
     "src/cslam/pipeline/threaded_executor.h",
     "src/cslam/pipeline/threaded_executor.cpp",
     "src/cslam/run/sequence_player.cpp",
-    "src/cslam/sim/sequence_writer.cpp",
+    "src/cslam/sim/resting_cache.h",
+    "src/cslam/sim/resting_cache.cpp",
+    "src/cslam/dataset/sequence_writer.cpp",
     "apps/interrupt.cpp",
 }
 THREADS = re.compile(

@@ -62,24 +62,26 @@ struct SceneDeleter {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
 
-void AttachObject(RTCDevice device, RTCScene scene, const SceneObject& object, unsigned int id) {
-  const Mesh& mesh = object.mesh;
+void AttachObject(RTCDevice device, RTCScene scene, const PlacedObject& object, bool is_brief) {
+  const Mesh& mesh = *object.mesh;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* positions = static_cast<float*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              3 * sizeof(float), mesh.positions.size()));
+                              3 * sizeof(float), object.positions_m.size()));
   auto* indices = static_cast<unsigned int*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(unsigned int), mesh.triangles.size()));
-  CSLAM_CHECK(positions != nullptr && indices != nullptr, "Embree buffers of '{}'", object.name);
-  for (const Eigen::Vector3f& p : mesh.positions) {
-    const Eigen::Vector3f p_world = (object.T_world_object * p.cast<double>()).cast<float>();
-    positions = std::copy_n(p_world.data(), 3, positions);
+  CSLAM_CHECK(positions != nullptr && indices != nullptr, "Embree buffers of object {}",
+              object.instance);
+  for (const Eigen::Vector3d& p : object.positions_m) {
+    const Eigen::Vector3f rounded = p.cast<float>();
+    positions = std::copy_n(rounded.data(), 3, positions);
   }
   for (const Triangle& triangle : mesh.triangles)
     indices = std::copy_n(triangle.vertices.data(), 3, indices);
+  if (is_brief) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, id);
+  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned int>(object.instance));
   rtcReleaseGeometry(geometry);
 }
 
@@ -90,18 +92,20 @@ struct RayScene::Embree {
   std::unique_ptr<RTCSceneTy, SceneDeleter> scene;
 };
 
-RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
+RayScene::RayScene(const Scene& scene) : RayScene(PlaceAll(scene)) {}
+
+RayScene::RayScene(std::span<const PlacedObject> objects, Use use)
+    : embree_(std::make_unique<Embree>()) {
   embree_->device.reset(rtcNewDevice("isa=sse4.2,threads=1"));
   CSLAM_CHECK(embree_->device != nullptr, "Embree gives no device (error {})",
               static_cast<int>(rtcGetDeviceError(nullptr)));
   embree_->scene.reset(rtcNewScene(embree_->device.get()));
   rtcSetSceneFlags(embree_->scene.get(), RTC_SCENE_FLAG_ROBUST);
-  unsigned int id = 0;
-  for (const SceneObject& object : scene.objects) {
-    if (!object.mesh.triangles.empty()) {
-      AttachObject(embree_->device.get(), embree_->scene.get(), object, id);
-    }
-    ++id;
+  const bool is_brief = use == Use::kOneFrame;
+  if (is_brief) rtcSetSceneBuildQuality(embree_->scene.get(), RTC_BUILD_QUALITY_LOW);
+  for (const PlacedObject& object : objects) {
+    if (object.mesh->triangles.empty()) continue;
+    AttachObject(embree_->device.get(), embree_->scene.get(), object, is_brief);
   }
   rtcCommitScene(embree_->scene.get());
   const RTCError error = rtcGetDeviceError(embree_->device.get());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/sim/placed_object.h"
 #include "cslam/sim/scene.h"
 
 #include <Eigen/Core>
@@ -24,7 +25,11 @@ struct RayHit {
 // x86-64 machine answers alike. Const calls may run on several threads at once.
 class RayScene {
  public:
-  explicit RayScene(const Scene& scene);
+  // How long it serves: a scene for a single frame is made faster and searched more slowly.
+  enum class Use { kLong, kOneFrame };
+
+  explicit RayScene(std::span<const PlacedObject> objects, Use use = Use::kLong);
+  explicit RayScene(const Scene& scene);  // all objects at their poses in the scene
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
