@@ -48,7 +48,6 @@ void FurnishWalls(RoomDecorator& room) {
   room.Hang(Wall::kEast, 1.9, 0.8, 1.0);
   room.AgainstWall(PropKind::kBookcase, Wall::kEast, 3.0);
   room.Hang(Wall::kEast, 4.0, 1.0, 0.8);
-  room.Put(PropKind::kTeddyBear, room.AgainstWall(PropKind::kCabinet, Wall::kEast, 4.2));
   room.Hang(Wall::kEast, 5.3, 0.7, 1.0);
 
   room.Door(Wall::kSouth, 1.0);
@@ -83,13 +82,20 @@ void FurnishDesks(PropPlacer& put) {
     put.Put(PropKind::kMonitor, T_world_top * Standing(0.15, 0.1, 0.0, 0.2));
     put.Put(PropKind::kCarton, T_world_top * Standing(-0.4, 0.0, 0.0, 0.3));
   }
-  for (const double x : {2.2, 4.6})
-    put.Put(PropKind::kChair, Standing(x, 5.62, 0.0, put.rng().Uniform(-0.2, 0.2)));
 }
 
-std::array<Se3, 2> ChairPlaces(bool in_front) {
+std::array<OfficeSeat, 2> PutSeats(PropPlacer& put, const std::array<Se3, 2>& places) {
+  std::array<OfficeSeat, 2> seats;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const PropPlacer::Placed chair = put.Put(PropKind::kChair, places[i]);
+    seats[i] = {chair.id, places[i], chair.T_world_top.translation.z()};
+  }
+  return seats;
+}
+
+std::array<Se3, 2> SeatPlaces(bool in_front) {
   if (in_front) return {Standing(2.93, 2.95, 0.0, 0.55), Standing(4.1, 3.0, 0.0, -0.6)};
-  return {Standing(2.55, 3.6, 0.0, kHalfTurn + 0.25), Standing(4.5, 3.6, 0.0, kHalfTurn - 0.3)};
+  return {Standing(2.55, 3.6, 0.0, kHalfTurn + 0.25), Standing(4.5, 3.5, 0.0, -0.5)};
 }
 
 }  // namespace
@@ -117,11 +123,11 @@ Office AddOffice(SceneBuilder& scene, const PropLibrary& props, const OfficeOpti
            static_cast<int>(room.rng().Index(1000)));
   PropPlacer put(scene, props, options.seed);
   FurnishDesks(put);
-  const std::array<Se3, 2> places = ChairPlaces(options.chairs_in_front);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Se3 T_world_seat = put.Put(PropKind::kChair, places[i]).T_world_top;
-    office.seats[i] = {places[i], T_world_seat.translation.z()};
-  }
+  office.seats = PutSeats(put, SeatPlaces(options.chairs_in_front));
+  office.back_seats =
+      PutSeats(put, {Standing(2.2, 5.62, 0.0, 0.1), Standing(4.6, 5.62, 0.0, -0.15)});
+  office.T_world_teddy = room.AgainstWall(PropKind::kCabinet, Wall::kEast, 4.2);
+  office.teddy_id = room.Put(PropKind::kTeddyBear, office.T_world_teddy);
   return office;
 }
 

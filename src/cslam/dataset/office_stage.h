@@ -17,6 +17,7 @@ namespace cslam {
 
 // A seat in the office and how high it is.
 struct OfficeSeat {
+  int chair_id = 0;
   Se3 T_world_chair;
   double seat_height_m = 0.45;
 };
@@ -27,7 +28,10 @@ struct OfficeSeat {
 struct Office {
   RoomShell room;
   PathKey home;
-  std::array<OfficeSeat, 2> seats;  // left and right as seen from home
+  std::array<OfficeSeat, 2> seats;       // before the desks, left and right as seen from home
+  std::array<OfficeSeat, 2> back_seats;  // behind the desks
+  int teddy_id = 0;                      // on a cabinet at the east wall
+  Se3 T_world_teddy;
 };
 
 struct OfficeOptions {
@@ -37,7 +41,6 @@ struct OfficeOptions {
 
 Office AddOffice(SceneBuilder& scene, const PropLibrary& props, const OfficeOptions& options);
 
-// Where people may walk in it.
 constexpr double kOfficeMiddleXM = 3.5;
 
 // Puts props into a scene, of any variant.
