@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ class PersonMotion {
 struct FloorPoint {
   double time_s = 0.0;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+  std::optional<double> facing_rad = std::nullopt;  // while it stands here; else the way it came
 };
 
 // Walks smoothly through the points, facing the way it goes (turning on the spot where it has to),
@@ -55,11 +57,18 @@ struct Sitting {
 };
 std::shared_ptr<const PersonMotion> Sit(const Sitting& sitting, std::uint64_t seed);
 
-// As `walk`, but holding something in both hands before the chest between two times.
+// As `walk`, but holding something in both hands before the chest between two times (the hands
+// take half a second to get there and to leave again).
+struct Load {
+  double width_m = 0.4;   // between the hands
+  double depth_m = 0.4;   // away from the chest
+  double bottom_m = 0.9;  // above the floor
+};
 std::shared_ptr<const PersonMotion> Carrying(std::shared_ptr<const PersonMotion> walk,
-                                             double from_s, double to_s);
+                                             double from_s, double to_s, const Load& load = {});
 
-// Bottom centre of what Carrying() holds, front of the thing to the front of the person.
+// Bottom centre of what Carrying() holds, front of the thing to the front of the person; the person
+// must be there at that time.
 Se3 T_world_Carried(const PersonMotion& motion, double time_s);
 
 // Adds the person's body to the scene as an object of class 0; returns its instance id.
