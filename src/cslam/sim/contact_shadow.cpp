@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cslam {
 namespace {
@@ -11,36 +12,39 @@ namespace {
 constexpr double kCellM = 0.2;        // a ball for the surface in each such cube
 constexpr float kReachM = 0.7F;       // balls farther than this cast nothing
 constexpr float kMaxDarkness = 0.5F;  // share of the display value a full cover takes
-constexpr float kMinRadiusM = 0.03F;
+constexpr double kMaxRadiusM = 0.15;  // bodies have inner layers that hide nothing more
 
 struct Cell {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double sum_squared = 0.0;
-  int count = 0;
+  Eigen::Vector3d weighted_sum = Eigen::Vector3d::Zero();
+  double area_m2 = 0.0;
 };
 
-// Vertices gathered into the cells of a grid; means and spreads become balls.
+// Triangles gathered into the cells of a grid. A patch of area A hides as much as a ball of radius
+// sqrt(A / pi); about half of a body's surface faces any point.
 std::vector<Eigen::Vector4f> BallsOf(const PlacedObject& object,
                                      const Eigen::AlignedBox3d& bounds) {
   const Eigen::Array3i size =
       (bounds.sizes().array() / kCellM).floor().cast<int>().max(0) + Eigen::Array3i::Ones();
   std::vector<Cell> cells(static_cast<std::size_t>(size.prod()));
-  for (const Eigen::Vector3d& p : object.positions_m) {
-    const Eigen::Vector3d from_corner = p - bounds.min();
-    const Eigen::Array3i at = (from_corner.array() / kCellM).cast<int>().min(size - 1);
+  for (const Triangle& triangle : object.mesh->triangles) {
+    const Eigen::Vector3d& a = object.positions_m[triangle.vertices[0]];
+    const Eigen::Vector3d& b = object.positions_m[triangle.vertices[1]];
+    const Eigen::Vector3d& c = object.positions_m[triangle.vertices[2]];
+    const Eigen::Vector3d middle = (a + b + c) / 3.0;
+    const double area_m2 = 0.5 * (b - a).cross(c - a).norm();
+    const Eigen::Array3i at =
+        ((middle - bounds.min()).array() / kCellM).cast<int>().max(0).min(size - 1);
     Cell& cell = cells[static_cast<std::size_t>((at.z() * size.y() + at.y()) * size.x() + at.x())];
-    cell.sum += from_corner;
-    cell.sum_squared += from_corner.squaredNorm();
-    ++cell.count;
+    cell.weighted_sum += area_m2 * middle;
+    cell.area_m2 += area_m2;
   }
   std::vector<Eigen::Vector4f> balls;
   for (const Cell& cell : cells) {
-    if (cell.count == 0) continue;
-    const Eigen::Vector3d mean = cell.sum / cell.count;
-    const double variance = cell.sum_squared / cell.count - mean.squaredNorm();
-    const Eigen::Vector3f center = (bounds.min() + mean).cast<float>();
-    const float squared = std::max(kMinRadiusM * kMinRadiusM, static_cast<float>(variance));
-    balls.emplace_back(center.x(), center.y(), center.z(), squared);
+    if (cell.area_m2 <= 0.0) continue;
+    const Eigen::Vector3f center = (cell.weighted_sum / cell.area_m2).cast<float>();
+    const double squared_m2 =
+        std::min(kMaxRadiusM * kMaxRadiusM, 0.5 * cell.area_m2 / std::numbers::pi);
+    balls.emplace_back(center.x(), center.y(), center.z(), static_cast<float>(squared_m2));
   }
   return balls;
 }
