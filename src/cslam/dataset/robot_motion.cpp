@@ -19,6 +19,7 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr int kTableSteps = 64;             // of a curve's length, per point
 constexpr double kOrbitStepDeg = 8.0;       // between the points of a circle
 constexpr double kLongestOrbitDeg = 170.0;  // beyond, the gaze's direction would be ambiguous
+constexpr double kNoWay = 1e-6;             // m or rad: not worth a move
 constexpr double kActivityStepS = 0.04;
 constexpr double kFullSpeedMps = 0.25;  // at which the shaking reaches half its height
 constexpr double kFullTurnRadps = 40.0 * kRadPerDeg;
@@ -26,7 +27,7 @@ constexpr double kShortestStretch = 0.3;  // pauses may shrink to this share of 
 
 // Time for a way (m or rad) from rest to rest at no more than the given speed.
 double TravelTime(double way, double speed, double ramp_s) {
-  return std::max(way / speed + ramp_s, way > 0.0 ? 2.0 * ramp_s : 0.0);
+  return way < kNoWay ? 0.0 : std::max(way / speed + ramp_s, 2.0 * ramp_s);
 }
 
 // Share of a way covered at a time: constant speed between two smooth ramps.
@@ -213,17 +214,21 @@ void RobotPlan::Scan(double half_width_deg, int repeats) {
 }
 
 void RobotPlan::Ride(const std::vector<Eigen::Vector2d>& through_m, double turning_deg) {
-  std::vector<Eigen::Vector2d> points{position_m_};
-  for (const Eigen::Vector2d& point : through_m)
-    points.push_back(Noisy(point));
   Add({0.0,
        0.0,
        false,
        false,
-       FloorCurve(std::move(points)),
+       FloorCurve(WayThrough(through_m)),
        yaw_rad_,
        turning_deg * kRadPerDeg,
        {}});
+}
+
+void RobotPlan::RideAndFace(const std::vector<Eigen::Vector2d>& through_m,
+                            const Eigen::Vector2d& point_m, int full_turns) {
+  const Eigen::Vector2d end_m = WayThrough(through_m).back();
+  Ride(through_m,
+       WrapRad(DirectionRad(end_m, point_m) - yaw_rad_) / kRadPerDeg + 360.0 * full_turns);
 }
 
 void RobotPlan::Orbit(const Eigen::Vector2d& center_m, double by_deg, double radius_m) {
@@ -258,19 +263,25 @@ void RobotPlan::Add(Leg leg) {
   legs_.push_back(std::move(leg));
 }
 
-Eigen::Vector2d RobotPlan::Noisy(const Eigen::Vector2d& place_m) {
+std::vector<Eigen::Vector2d> RobotPlan::WayThrough(
+    const std::vector<Eigen::Vector2d>& places_m) const {
   Rng rng(seed_, legs_.size(), 55);
-  const double n = pace_.place_noise_m;
-  const double dx = rng.Uniform(-n, n);
-  const double dy = rng.Uniform(-n, n);
-  return place_m + Eigen::Vector2d(dx, dy);
+  const double noise_m = pace_.place_noise_m;
+  std::vector<Eigen::Vector2d> way{position_m_};
+  for (const Eigen::Vector2d& place : places_m) {
+    const double dx = rng.Uniform(-noise_m, noise_m);
+    const double dy = rng.Uniform(-noise_m, noise_m);
+    way.emplace_back(place + Eigen::Vector2d(dx, dy));
+  }
+  return way;
 }
 
 RobotRide RobotPlan::Finish(double duration_s, const RobotBody& body) const {
   CSLAM_CHECK(!legs_.empty() && standing_s_ > 0.0);
   const double stretch = (duration_s - moving_s_) / standing_s_;
-  CSLAM_CHECK(stretch > kShortestStretch, "{} s are too short: moving takes {} s, pauses {} s",
-              duration_s, moving_s_, standing_s_);
+  CSLAM_CHECK(stretch > kShortestStretch,
+              "{} s are too short: moving takes {} s, pauses {} s; {} m, {} deg", duration_s,
+              moving_s_, standing_s_, length_m_, turning_deg_);
   std::vector<Leg> legs = legs_;
   for (Leg& leg : legs)
     if (leg.is_pause) leg.duration_s *= stretch;

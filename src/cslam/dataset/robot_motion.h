@@ -69,6 +69,10 @@ class RobotPlan {
 
   // Drives through the points, turning by an angle meanwhile.
   void Ride(const std::vector<Eigen::Vector2d>& through_m, double turning_deg = 0.0);
+  // As above, so that in the end it looks at a point: the shorter way, and some full turns to the
+  // left (negative: to the right) on top.
+  void RideAndFace(const std::vector<Eigen::Vector2d>& through_m, const Eigen::Vector2d& point_m,
+                   int full_turns = 0);
   // Drives along a circle (a spiral, if radius_m differs from the distance now) with the gaze on
   // its centre: by an angle around it, less than 170 deg, positive anticlockwise from above. Faces
   // the centre first.
@@ -99,7 +103,7 @@ class RobotPlan {
 
   void Pause(double seconds, bool is_marked);
   void Add(Leg leg);
-  Eigen::Vector2d Noisy(const Eigen::Vector2d& place_m);
+  std::vector<Eigen::Vector2d> WayThrough(const std::vector<Eigen::Vector2d>& places_m) const;
 
   RobotPace pace_;
   std::uint64_t seed_;
