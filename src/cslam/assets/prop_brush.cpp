@@ -19,19 +19,24 @@ cv::Size PropBrush::Texels(double width_m, double height_m) const {
 int PropBrush::Wood() {
   const std::array<cv::Scalar, 4> tones{cv::Scalar(70, 112, 156), cv::Scalar(104, 158, 196),
                                         cv::Scalar(44, 66, 98), cv::Scalar(178, 192, 204)};
-  const cv::Scalar& tone = tones[rng_.Index(tones.size())];
-  return scene_.AddSurface(PaintWood(Texels(kPatchM, kPatchM), texels_per_m_, tone, NextRng()),
+  return Wood(tones[rng_.Index(tones.size())]);
+}
+
+int PropBrush::Wood(const cv::Scalar& color_bgr) {
+  return scene_.AddSurface(PaintWood(Texels(kPatchM, kPatchM), texels_per_m_, color_bgr, NextRng()),
                            kPatchM, kPatchM);
 }
 
 int PropBrush::Fabric(double saturation, double value) {
-  const cv::Scalar color = RandomColor(rng_, saturation, value);
-  return scene_.AddSurface(PaintFabric(Texels(kPatchM, kPatchM), texels_per_m_, color, NextRng()),
-                           kPatchM, kPatchM);
+  return Fabric(RandomColor(rng_, saturation, value));
+}
+
+int PropBrush::Fabric(const cv::Scalar& color_bgr) {
+  return scene_.AddSurface(
+      PaintFabric(Texels(kPatchM, kPatchM), texels_per_m_, color_bgr, NextRng()), kPatchM, kPatchM);
 }
 
 int PropBrush::RichFabric() {
-  constexpr double kRichM = 2.0 * kPatchM;
   return scene_.AddSurface(PaintRichFabric(Texels(kRichM, kRichM), texels_per_m_, NextRng()),
                            kRichM, kRichM);
 }

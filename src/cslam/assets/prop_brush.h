@@ -20,11 +20,14 @@ class PropBrush {
   PropBrush(SceneBuilder& scene, double texels_per_m, Rng rng)
       : scene_(scene), texels_per_m_(texels_per_m), rng_(rng) {}
 
-  int Wood();                                   // period kPatchM
-  int Fabric(double saturation, double value);  // period kPatchM
-  int RichFabric();                             // period 2 kPatchM
-  int Plain(const cv::Scalar& color_bgr);       // period kPatchM
-  int Fur(const cv::Scalar& color_bgr);         // period kPatchM
+  // All but pictures repeat with the period kPatchM.
+  int Wood();
+  int Wood(const cv::Scalar& color_bgr);
+  int Fabric(double saturation, double value);
+  int Fabric(const cv::Scalar& color_bgr);
+  int Plain(const cv::Scalar& color_bgr);
+  int Fur(const cv::Scalar& color_bgr);
+  int RichFabric();  // period kRichM
   int Picture(const cv::Mat& image, float emission = 0.0F) {
     return scene_.AddPicture(image, emission);
   }
@@ -35,6 +38,7 @@ class PropBrush {
   Rng NextRng() { return Rng(rng_.NextUint64()); }
 
   static constexpr double kPatchM = 0.5;
+  static constexpr double kRichM = 1.0;
 
  private:
   SceneBuilder& scene_;
