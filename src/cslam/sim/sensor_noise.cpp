@@ -2,65 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/sim/sensor_noise.h"
 
+#include "cslam/sim/noise_fields.h"
 #include "cslam/util/check.h"
-#include "cslam/util/random.h"
 
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 namespace cslam {
 namespace {
 
-enum class Purpose : std::uint64_t {
-  kTable = 11,
-  kPixels = 12,
-  kPatches = 13,
-  kDropout = 14,
-  kColor = 15
-};
-
-Rng MakeRng(std::uint64_t seed, std::uint64_t frame, Purpose purpose) {
-  return Rng(seed, frame, static_cast<std::uint64_t>(purpose));
-}
-
-// Standard normal values drawn once per image and read from random places after: Box-Muller for
-// every value would cost more than rendering.
-class NormalTable {
- public:
-  explicit NormalTable(Rng rng) {
-    for (float& value : values_)
-      value = static_cast<float>(rng.Gaussian());
-  }
-
-  float At(std::uint64_t bits) const { return values_[bits % kSize]; }
-
- private:
-  static constexpr std::size_t kSize = 4096;
-  std::array<float, kSize> values_{};
-};
-
-// H x W, CV_32FC1: standard normal on a grid of the given spacing, smooth in between.
-cv::Mat SmoothNormal(cv::Size size, double spacing_px, Rng rng) {
-  const auto cells = [&](int length) {
-    return static_cast<int>(std::ceil(length / spacing_px)) + 2;
-  };
-  cv::Mat grid(cells(size.height), cells(size.width), CV_32FC1);
-  for (int r = 0; r < grid.rows; ++r) {
-    for (int c = 0; c < grid.cols; ++c)
-      grid.at<float>(r, c) = static_cast<float>(rng.Gaussian());
-  }
-  cv::Mat smooth;
-  cv::resize(grid, smooth, size, 0.0, 0.0, cv::INTER_CUBIC);
-  return smooth;
-}
-
-// Marks (non-zero) pixels behind a depth step, or next to one.
-cv::Mat DepthSteps(const cv::Mat& depth_m, double step) {
+// Marks (non-zero) pixels at most reach_px from a depth step.
+cv::Mat DepthSteps(const cv::Mat& depth_m, double step, double reach_px) {
   cv::Mat steps = cv::Mat::zeros(depth_m.size(), CV_8UC1);
   const auto ratio = static_cast<float>(1.0 + step);
   const auto is_step = [&](float a, float b) { return a > ratio * b || b > ratio * a; };
@@ -74,8 +30,43 @@ cv::Mat DepthSteps(const cv::Mat& depth_m, double step) {
       if (below) steps.at<unsigned char>(v + 1, u) = 1;
     }
   }
-  return steps;
+  const int radius = static_cast<int>(std::lround(reach_px)) - 1;
+  if (radius <= 0) return steps;
+  cv::Mat wide;
+  cv::dilate(steps, wide,
+             cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
+  return wide;
 }
+
+// Decides which pixels at depth steps give nothing: each by itself, or whole patches.
+class EdgeDropout {
+ public:
+  EdgeDropout(cv::Size size, const DepthNoiseOptions& options, Rng rng)
+      : rng_(rng), chance_(options.edge_dropout) {
+    if (options.dropout_patch_px <= 0.0) return;
+    const double spacing_px = std::max(1.0, options.dropout_patch_px * size.width / 640.0);
+    field_ = SmoothNormal(size, spacing_px, Rng(rng.NextUint64()));
+    const auto values = std::vector<float>(field_.begin<float>(), field_.end<float>());
+    threshold_ = QuantileOf(values, chance_);
+  }
+
+  // In order of pixels.
+  bool Takes(int v, int u) {
+    return field_.empty() ? rng_.Uniform() < chance_ : field_.at<float>(v, u) < threshold_;
+  }
+
+ private:
+  static float QuantileOf(std::vector<float> values, double share) {
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, values.begin() + rank);
+    return values[static_cast<std::size_t>(rank)];
+  }
+
+  Rng rng_;
+  double chance_;
+  cv::Mat field_;
+  float threshold_ = 0.0F;
+};
 
 // The neighbour at p + step or p - step, whichever is nearer in depth: that across a depth step
 // belongs to another surface.
@@ -119,16 +110,32 @@ std::vector<bool> LitPixels(const float* depth_m, int width, double focal_baseli
 
 }  // namespace
 
+DepthNoiseOptions D435iDepthNoise() {
+  return {.baseline_m = 0.05,
+          .disparity_sigma_px = 0.015,
+          .patch_sigma_px = 0.08,
+          .patch_size_px = 7.0,
+          .quantum_px = 1.0 / 32.0,
+          .unit_m = 0.001,
+          .min_depth_m = 0.3,
+          .max_depth_m = 6.0,
+          .edge_dropout = 0.8,
+          .edge_reach_px = 3.0,
+          .dropout_patch_px = 4.0,
+          .edge_step = 0.04,
+          .grazing_cosine = 0.12};
+}
+
 cv::Mat AddDepthNoise(const cv::Mat& depth_m, const Camera& camera,
                       const DepthNoiseOptions& options, std::uint64_t seed, std::uint64_t frame) {
   CSLAM_CHECK(depth_m.type() == CV_32FC1);
-  const NormalTable normal(MakeRng(seed, frame, Purpose::kTable));
-  Rng pixel_rng = MakeRng(seed, frame, Purpose::kPixels);
-  Rng dropout_rng = MakeRng(seed, frame, Purpose::kDropout);
+  const NormalTable normal(MakeNoiseRng(seed, frame, NoisePurpose::kTable));
+  Rng pixel_rng = MakeNoiseRng(seed, frame, NoisePurpose::kPixels);
+  EdgeDropout dropout(depth_m.size(), options, MakeNoiseRng(seed, frame, NoisePurpose::kDropout));
   const double width_ratio = 640.0 / depth_m.cols;
   const cv::Mat patches = SmoothNormal(depth_m.size(), options.patch_size_px / width_ratio,
-                                       MakeRng(seed, frame, Purpose::kPatches));
-  const cv::Mat steps = DepthSteps(depth_m, options.edge_step);
+                                       MakeNoiseRng(seed, frame, NoisePurpose::kPatches));
+  const cv::Mat steps = DepthSteps(depth_m, options.edge_step, options.edge_reach_px / width_ratio);
   const double focal_baseline = camera.fx * options.baseline_m;
   const double disparity_scale = focal_baseline * width_ratio;
   const double min_cosine2 = options.grazing_cosine * options.grazing_cosine;
@@ -143,46 +150,17 @@ cv::Mat AddDepthNoise(const cv::Mat& depth_m, const Camera& camera,
       const auto z = static_cast<double>(row_m[u]);
       if (z < options.min_depth_m || z > options.max_depth_m) continue;
       if (!lit[static_cast<std::size_t>(u)]) continue;
-      if (steps.at<unsigned char>(v, u) != 0 && dropout_rng.Uniform() < options.edge_dropout) {
-        continue;
-      }
+      if (steps.at<unsigned char>(v, u) != 0 && dropout.Takes(v, u)) continue;
       if (SquaredCosine(depth_m, camera, {u, v}) < min_cosine2) continue;
       const double measured_px = disparity_scale / z + error_px;
       const double quantised_px =
           options.quantum_px > 0.0
               ? options.quantum_px * std::round(measured_px / options.quantum_px)
               : measured_px;
-      if (quantised_px > 0.0) {
-        noisy.at<float>(v, u) = static_cast<float>(disparity_scale / quantised_px);
-      }
-    }
-  }
-  return noisy;
-}
-
-cv::Mat AddColorNoise(const cv::Mat& bgr, const ColorNoiseOptions& options, std::uint64_t seed,
-                      std::uint64_t frame) {
-  CSLAM_CHECK(bgr.type() == CV_8UC3);
-  const NormalTable normal(MakeRng(seed, frame, Purpose::kTable));
-  Rng rng = MakeRng(seed, frame, Purpose::kColor);
-  const auto sigma = static_cast<float>(options.sigma);
-  const auto vignetting = static_cast<float>(options.vignetting);
-  const float centre_u = 0.5F * static_cast<float>(bgr.cols);
-  const float centre_v = 0.5F * static_cast<float>(bgr.rows);
-  const float corner2 = centre_u * centre_u + centre_v * centre_v;
-  cv::Mat noisy(bgr.size(), CV_8UC3);
-  for (int v = 0; v < bgr.rows; ++v) {
-    const auto* from = bgr.ptr<cv::Vec3b>(v);
-    auto* to = noisy.ptr<cv::Vec3b>(v);
-    const float dv = static_cast<float>(v) - centre_v;
-    for (int u = 0; u < bgr.cols; ++u) {
-      const float du = static_cast<float>(u) - centre_u;
-      const float light = 1.0F - vignetting * (du * du + dv * dv) / corner2;
-      std::uint64_t bits = rng.NextUint64();
-      for (int c = 0; c < 3; ++c, bits >>= 16) {
-        const float value = light * static_cast<float>(from[u][c]) + sigma * normal.At(bits);
-        to[u][c] = static_cast<unsigned char>(std::clamp(value + 0.5F, 0.0F, 255.0F));
-      }
+      if (quantised_px <= 0.0) continue;
+      const double seen_m = disparity_scale / quantised_px;
+      noisy.at<float>(v, u) = static_cast<float>(
+          options.unit_m > 0.0 ? options.unit_m * std::round(seen_m / options.unit_m) : seen_m);
     }
   }
   return noisy;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/sim/simulated_sequence.h"
 
+#include "cslam/sim/color_noise.h"
+#include "cslam/sim/motion_blur.h"
 #include "cslam/sim/room.h"
 #include "cslam/sim/sensor_noise.h"
 #include "cslam/util/check.h"
@@ -83,17 +85,36 @@ RgbdFrame SimulatedSequence::Frame(int i) const {
   return Observe(i, Truth(i));
 }
 
+cv::Mat SimulatedSequence::ObserveColor(int i, const RenderedView& truth) const {
+  const double exposure = options_.exposure ? options_.exposure(time_s(i)) : 1.0;
+  if (options_.noise == SensorNoise::kOff) return Expose(truth.bgr, exposure);
+  cv::Mat bgr = truth.bgr;
+  if (options_.shutter_s > 0.0) {
+    const double half_s = 0.5 * options_.shutter_s;
+    const ShutterMotion motion{motion_.T_world_camera(time_s(i) - half_s),
+                               motion_.T_world_camera(time_s(i) + half_s), options_.shutter_s};
+    bgr = BlurMotion(bgr, FlowOf(truth, camera(), motion));
+  }
+  ColorNoiseOptions noise =
+      options_.noise == SensorNoise::kD435i ? D435iColorNoise() : ColorNoiseOptions{};
+  noise.exposure = exposure;
+  return AddColorNoise(bgr, noise, options_.seed, static_cast<std::uint64_t>(i));
+}
+
+cv::Mat SimulatedSequence::ObserveDepth(int i, const RenderedView& truth) const {
+  if (options_.noise == SensorNoise::kOff) return truth.depth_m;
+  const DepthNoiseOptions noise =
+      options_.noise == SensorNoise::kD435i ? D435iDepthNoise() : DepthNoiseOptions{};
+  return AddDepthNoise(truth.depth_m, camera(), noise, options_.seed,
+                       static_cast<std::uint64_t>(i));
+}
+
 RgbdFrame SimulatedSequence::Observe(int i, const RenderedView& truth) const {
   RgbdFrame frame;
   frame.id = FrameId(static_cast<std::uint32_t>(i));
   frame.stamp = stamp(i);
-  const auto stream = static_cast<std::uint64_t>(i);
-  const bool is_noisy = options_.noise != SensorNoise::kOff;
-  frame.bgr =
-      is_noisy ? AddColorNoise(truth.bgr, ColorNoiseOptions{}, options_.seed, stream) : truth.bgr;
-  frame.depth_m =
-      is_noisy ? AddDepthNoise(truth.depth_m, camera(), DepthNoiseOptions{}, options_.seed, stream)
-               : truth.depth_m;
+  frame.bgr = ObserveColor(i, truth);
+  frame.depth_m = ObserveDepth(i, truth);
   cv::cvtColor(frame.bgr, frame.gray, cv::COLOR_BGR2GRAY);
   return frame;
 }

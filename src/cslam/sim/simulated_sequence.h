@@ -75,6 +75,9 @@ class SimulatedSequence {
   RgbdFrame Observe(int i, const RenderedView& truth) const;  // Frame(i), if Truth(i) is at hand
 
  private:
+  cv::Mat ObserveColor(int i, const RenderedView& truth) const;
+  cv::Mat ObserveDepth(int i, const RenderedView& truth) const;
+
   std::shared_ptr<const Renderer> renderer_;
   CameraMotion motion_;
   SequenceOptions options_;
