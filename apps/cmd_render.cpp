@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cmd_render.h"
 
-#include "cslam/sim/sequence_writer.h"
+#include "cslam/dataset/sequence_writer.h"
 #include "cslam/util/options.h"
 #include "cslam/util/text_table.h"
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 
 namespace cslam {
@@ -124,6 +123,12 @@ int JsonValue::IntegerIn(int low, int high) const {
   if (value != std::floor(value)) Fail(fmt::format("{} is not a whole number", value));
   if (value < low || value > high) Fail(fmt::format("{} is not in {} to {}", value, low, high));
   return static_cast<int>(value);
+}
+
+std::uint64_t JsonValue::Unsigned64() const {
+  const Json& node = NodeOf(node_);
+  if (!node.is_number_unsigned()) Fail("expected a whole number from 0 to 2^64 - 1");
+  return node.get<std::uint64_t>();
 }
 
 bool JsonValue::Bool() const {

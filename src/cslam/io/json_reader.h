@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <memory>
@@ -32,6 +33,7 @@ class JsonValue {
   double Number() const;  // finite
   double NumberIn(double low, double high) const;
   int IntegerIn(int low, int high) const;
+  std::uint64_t Unsigned64() const;  // exact, which a double is not
   bool Bool() const;
   std::string Text() const;
 

@@ -62,7 +62,7 @@ struct TrueObject {
   int instance = 0;
   std::string name;
   int class_id = -1;           // COCO; -1: none of its classes
-  bool is_deformable = false;  // people: the box is that of the body standing or sitting
+  bool is_deformable = false;  // people: the box holds the body in all its poses
   Eigen::Vector3d box_center = Eigen::Vector3d::Zero();  // m, object frame
   Eigen::Vector3d box_size_m = Eigen::Vector3d::Zero();  // along the object's axes
   std::vector<TrueInterval> intervals = {};              // in order of time
