@@ -139,7 +139,7 @@ int Run(const RunCommand& command) {
   const fs::path folder = command.out.empty() ? DefaultFolder(command.sequence) : command.out;
   PrepareRunFolder(folder);
   Announce(*dataset, folder);
-  const RunOutcome outcome = RunSequence(*dataset, options, settings,
+  const RunOutcome outcome = RunSequence(*dataset, options, settings, nullptr,
                                          MakeListeners(command, *dataset), InterruptRequested);
   const RunTrajectories trajectories = ExtractTrajectories(outcome.result);
   const RunReport report = MakeReport({.version = std::string(Version()),

@@ -32,7 +32,7 @@ View MakeView(const Map& map, KeyframeId id) {
   View view{.keyframe = map.FindKeyframe(id), .free_keypoints = {}};
   const auto& semantics = view.keyframe->data->features.semantics;
   for (std::size_t i = 0; i < view.keyframe->points.size(); ++i) {
-    if (!view.keyframe->points[i].valid() && semantics[i].label == KeypointLabel::kStatic) {
+    if (!view.keyframe->points[i].valid() && semantics[i].label != KeypointLabel::kDynamic) {
       view.free_keypoints.push_back(static_cast<int>(i));
     }
   }
@@ -168,8 +168,8 @@ std::vector<PointId> CreatePointsFromDepth(Map& map, KeyframeId id, const Camera
   const FrameFeatures& features = keyframe.data->features;
   std::vector<int> by_depth;
   for (std::size_t i = 0; i < features.size(); ++i) {
-    const bool is_static = features.semantics[i].label == KeypointLabel::kStatic;
-    if (features.keypoints[i].HasDepth() && is_static) by_depth.push_back(static_cast<int>(i));
+    const bool may_use = features.semantics[i].label != KeypointLabel::kDynamic;
+    if (features.keypoints[i].HasDepth() && may_use) by_depth.push_back(static_cast<int>(i));
   }
   std::stable_sort(by_depth.begin(), by_depth.end(), [&](int a, int b) {
     return features.keypoints[Index(a)].depth_m < features.keypoints[Index(b)].depth_m;

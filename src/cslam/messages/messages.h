@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/map/map_view.h"
+#include "cslam/objects/object_tracker.h"
 #include "cslam/util/stopwatch.h"
 #include "cslam/vision/rgbd_frame.h"
 
@@ -76,6 +77,12 @@ struct StageTime {
 // Notes the time since the last lap as that of the named step, and starts the next lap.
 void AddLap(std::vector<StageTime>& times, const char* stage, Stopwatch& watch);
 
+// A keypoint as pictures show it.
+struct LabelledKeypoint {
+  Eigen::Vector2f raw_px;
+  KeypointLabel label = KeypointLabel::kStatic;
+};
+
 // tracker -> sinks: one per input frame.
 struct TrackingResult {
   FrameId frame;
@@ -86,11 +93,14 @@ struct TrackingResult {
   std::optional<Se3> T_world_camera;  // as known now; set while tracking only
   KeyframeId reference;               // the pose is stored relative to this keyframe ...
   Se3 T_reference_camera;             // ... and follows its corrections
-  int num_keypoints = 0;
-  int num_map_matches = 0;  // map points matched before the final optimisation
-  int num_inliers = 0;      // map points the final pose agrees with
+  int num_keypoints = 0;              // extracted
+  int num_dynamic_keypoints = 0;      // of those, left out for what they lie on
+  int num_map_matches = 0;            // map points matched before the final optimisation
+  int num_inliers = 0;                // map points the final pose agrees with
   KeyframeReason keyframe_reason = KeyframeReason::kNotNeeded;
-  std::uint64_t map_revision = 0;  // of the snapshot used
+  std::uint64_t map_revision = 0;           // of the snapshot used
+  std::vector<TrackedObject> objects;       // in the frame, by track
+  std::vector<LabelledKeypoint> keypoints;  // all extracted, if asked for (report_keypoints)
   std::vector<StageTime> times;
 };
 

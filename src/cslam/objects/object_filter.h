@@ -14,8 +14,8 @@ class OptionList;
 
 struct ObjectFilterOptions {
   double acceleration_sigma_mps2 = 2.0;
-  double centre_sigma_m = 0.02;        // of a measured centre at 1 m ...
-  double centre_sigma_per_m2 = 0.01;   // ... and its growth with the depth squared
+  double centre_sigma_m = 0.01;        // of a measured centre at 1 m ...
+  double centre_sigma_per_m2 = 0.004;  // ... and its growth with the depth squared
   double clipped_sigma_m = 0.30;       // added where the thing is cut off or covered
   double moving_speed_mps = 0.25;      // the paper's DOC threshold
   double static_speed_mps = 0.12;      // below this a moving thing has come to rest

@@ -54,6 +54,7 @@ bool IsCovered(const DepthRegion& region, const DepthView& view) {
 }  // namespace
 
 void Describe(OptionList& list, ObjectTrackerOptions& o) {
+  list.Add("enabled", o.enabled, "Leave out people and moving things; off: all is background.");
   list.Add("label_movable", o.label_movable,
            "Hold back the keypoints of things that may move, not those of people alone.");
   list.Add("filter_motion", o.filter_motion,
@@ -84,6 +85,12 @@ void ObjectTracker::Clear() {
   newest_taken_.reset();
 }
 
+void ObjectTracker::StartWorld() {
+  history_.clear();
+  for (Object& object : objects_)
+    object.filter.reset();
+}
+
 double ObjectTracker::AreaM2(const DepthRegion& region) const {
   const double metres_per_px = static_cast<double>(region.median_m) / camera_.fx * now_.view.step;
   return region.num_pixels * metres_per_px * metres_per_px;
@@ -97,8 +104,11 @@ void ObjectTracker::Observe(FrameId frame, Stamp stamp, DepthView view,
   for (Object& object : objects_)
     object.is_detected_now = false;
   for (Object& object : objects_) {
-    const DepthRegion region = std::move(object.region);
-    Carry(object, history_.back(), region);
+    if (history_.empty()) break;
+    object.region = Carried(history_.back(), object.region, object.is_person(),
+                            object.filter ? &*object.filter : nullptr,
+                            options_.max_growth * object.reference_area_m2);
+    if (!object.region.empty()) object.box = object.region.box;
   }
   if (detections != nullptr && (!newest_taken_ || *newest_taken_ < detections->frame)) {
     newest_taken_ = detections->frame;
@@ -106,7 +116,7 @@ void ObjectTracker::Observe(FrameId frame, Stamp stamp, DepthView view,
   }
   Forget();
   for (const Object& object : objects_)
-    now_.objects.push_back({object.id, object.class_id, object.box});
+    now_.objects.push_back({object.id, object.box});
 }
 
 // Corrections of the map move the world: all that is kept in it moves along.
@@ -122,35 +132,28 @@ void ObjectTracker::MoveWorld(const Se3& T_world_last) {
   }
 }
 
-// Moves what was seen in an earlier frame into the present one.
-void ObjectTracker::Carry(Object& object, const Frame& from, const DepthRegion& region) const {
+// Where a region of an earlier frame is in the present one.
+DepthRegion ObjectTracker::Carried(const Frame& from, const DepthRegion& region, bool is_person,
+                                   const ObjectFilter* filter, double max_area_m2) const {
   constexpr int kMinUpdates = 4;  // before a velocity means anything
   const Se3 T_now_from = now_.T_world_camera.Inverse() * from.T_world_camera;
-  const double dt_s = SecondsBetween(now_.stamp, from.stamp);
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  if (object.filter && object.filter->num_updates() >= kMinUpdates) {
-    shift = now_.T_world_camera.R().transpose() * object.filter->velocity() * dt_s;
+  if (filter != nullptr && filter->num_updates() >= kMinUpdates) {
+    const double dt_s = SecondsBetween(now_.stamp, from.stamp);
+    shift = now_.T_world_camera.R().transpose() * filter->velocity() * dt_s;
   }
-  DepthRegion carried = CarryRegion(from.view, region, now_.view, T_now_from, shift,
-                                    object.is_person(), options_.region);
-  if (!carried.empty() && object.reference_area_m2 > 0.0 &&
-      AreaM2(carried) > options_.max_growth * object.reference_area_m2) {
-    // It has run into a neighbour: take only what was there before.
-    RegionOptions tight = options_.region;
-    tight.carry_margin_px = 0.0;
-    carried =
-        CarryRegion(from.view, region, now_.view, T_now_from, shift, object.is_person(), tight);
-  }
-  object.region = std::move(carried);
-  if (!object.region.empty()) object.box = object.region.box;
+  DepthRegion carried =
+      CarryRegion(from.view, region, now_.view, T_now_from, shift, is_person, options_.region);
+  if (carried.empty() || max_area_m2 <= 0.0 || AreaM2(carried) <= max_area_m2) return carried;
+  // It has run into a neighbour: take only what was there before.
+  RegionOptions tight = options_.region;
+  tight.carry_margin_px = 0.0;
+  return CarryRegion(from.view, region, now_.view, T_now_from, shift, is_person, tight);
 }
 
 void ObjectTracker::TakeIn(const Detections& detections) {
   if (detections.frame == now_.id) {
-    for (const Object& object : objects_)
-      now_.objects.push_back({object.id, object.class_id, object.box});
     Associate(now_, detections);
-    now_.objects.clear();
     return;
   }
   const auto past = std::find_if(history_.begin(), history_.end(),
@@ -192,8 +195,10 @@ std::vector<DepthRegion> ObjectTracker::SegmentAll(const Frame& frame,
   return regions;
 }
 
-// Best overlaps first, one to one, ties by id (Algorithm 2).
+// Best overlaps first, one to one, ties by id (Algorithm 2). Late detections are compared both
+// where they were seen and where they are now.
 void ObjectTracker::Associate(const Frame& frame, const Detections& detections) {
+  const bool is_late = frame.id != now_.id;
   std::vector<DepthRegion> regions = SegmentAll(frame, detections);
   struct Pair {
     double iou;
@@ -202,10 +207,17 @@ void ObjectTracker::Associate(const Frame& frame, const Detections& detections) 
   };
   std::vector<Pair> pairs;
   for (std::size_t d = 0; d < detections.objects.size(); ++d) {
-    for (const PastObject& known : frame.objects) {
-      if (known.class_id != detections.objects[d].class_id && known.class_id >= 0) continue;
-      const double iou = Iou(known.box, detections.objects[d].box);
-      if (iou >= options_.min_iou) pairs.push_back({iou, d, known.id});
+    const Detection& detection = detections.objects[d];
+    const bool is_person = detection.class_id == kPersonClass;
+    Box box_now = detection.box;
+    if (is_late) box_now = Carried(frame, regions[d], is_person, nullptr, 0.0).box;
+    for (const Object& object : objects_) {
+      if (object.class_id != detection.class_id && object.class_id >= 0) continue;
+      double iou = Iou(object.box, box_now);
+      for (const PastObject& past : frame.objects) {
+        if (past.id == object.id) iou = std::max(iou, Iou(past.box, detection.box));
+      }
+      if (iou >= options_.min_iou) pairs.push_back({iou, d, object.id});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
@@ -220,39 +232,36 @@ void ObjectTracker::Associate(const Frame& frame, const Detections& detections) 
     match[pair.detection] = pair.id;
     used.push_back(pair.id);
   }
-  for (std::size_t d = 0; d < detections.objects.size(); ++d) {
-    const Detection& detection = detections.objects[d];
-    auto object = objects_.end();
-    if (match[d]) {
-      object = std::find_if(objects_.begin(), objects_.end(),
-                            [&](const Object& o) { return o.id == *match[d]; });
-    }
-    if (object == objects_.end()) {
-      Object fresh;
-      fresh.id = TrackId(next_track_++);
-      objects_.push_back(std::move(fresh));
-      object = std::prev(objects_.end());
-    }
-    Renew(*object, detection, std::move(regions[d]), frame);
-  }
+  for (std::size_t d = 0; d < detections.objects.size(); ++d)
+    Renew(match[d], detections.objects[d], std::move(regions[d]), frame);
 }
 
-void ObjectTracker::Renew(Object& object, const Detection& detection, DepthRegion region,
+// A detection updates its object, or becomes a new one.
+void ObjectTracker::Renew(std::optional<TrackId> id, const Detection& detection, DepthRegion region,
                           const Frame& frame) {
+  auto known = std::find_if(objects_.begin(), objects_.end(),
+                            [&](const Object& o) { return id && o.id == *id; });
+  if (known == objects_.end()) {
+    Object fresh;
+    fresh.id = TrackId(next_track_++);
+    known = objects_.insert(objects_.end(), std::move(fresh));
+  }
+  Object& object = *known;
   object.class_id = detection.class_id;
   object.score = detection.score;
   object.detected = frame.stamp;
-  object.box = detection.box;
   object.is_detected_now = frame.id == now_.id;
   if (!region.empty()) object.reference_area_m2 = AreaM2(region);
   if (object.is_detected_now) {
+    object.box = detection.box;
     object.region = std::move(region);
-  } else {
-    const DepthRegion before = object.region;
-    Carry(object, frame, region);
-    if (object.region.empty()) object.region = before;
-    if (!object.region.empty()) object.box = object.region.box;
+    return;
   }
+  DepthRegion carried =
+      Carried(frame, region, object.is_person(), object.filter ? &*object.filter : nullptr,
+              options_.max_growth * object.reference_area_m2);
+  if (!carried.empty()) object.region = std::move(carried);
+  object.box = object.region.empty() ? detection.box : object.region.box;
 }
 
 // The newest settled frame that is at least so old.
@@ -306,7 +315,7 @@ void ObjectTracker::AddUnknown(const DepthRegion& region, const Se3& T_world_cam
   fresh.filter.emplace(T_world_camera, CentreMeasurement{.centre_camera = region.centre_camera});
   fresh.filtered = now_.stamp;
   objects_.push_back(std::move(fresh));
-  now_.objects.push_back({objects_.back().id, -1, region.box});
+  now_.objects.push_back({objects_.back().id, region.box});
 }
 
 // Objects that nothing has confirmed for a while.

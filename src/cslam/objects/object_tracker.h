@@ -21,6 +21,7 @@ namespace cslam {
 class OptionList;
 
 struct ObjectTrackerOptions {
+  bool enabled = true;          // off: every keypoint counts as background
   bool label_movable = true;    // hold back the keypoints of things that may move
   bool filter_motion = true;    // trust movable things again once the filter finds them static
   double min_iou = 0.3;         // for a detection to be a known object
@@ -79,6 +80,9 @@ class ObjectTracker {
   std::vector<TrackedObject> objects() const;
 
   const DepthView& view() const { return now_.view; }
+  // From here on poses are in another world: positions are forgotten, things in view are not.
+  void StartWorld();
+
   void Clear();
 
  private:
@@ -97,7 +101,6 @@ class ObjectTracker {
   };
   struct PastObject {
     TrackId id;
-    int class_id;
     Box box;
   };
   struct Frame {
@@ -111,11 +114,13 @@ class ObjectTracker {
 
   void MoveWorld(const Se3& T_world_last);
   void Remember();
-  void Carry(Object& object, const Frame& from, const DepthRegion& region) const;
+  DepthRegion Carried(const Frame& from, const DepthRegion& region, bool is_person,
+                      const ObjectFilter* filter, double max_area_m2) const;
   void TakeIn(const Detections& detections);
   void Associate(const Frame& frame, const Detections& detections);
   std::vector<DepthRegion> SegmentAll(const Frame& frame, const Detections& detections) const;
-  void Renew(Object& object, const Detection& detection, DepthRegion region, const Frame& frame);
+  void Renew(std::optional<TrackId> id, const Detection& detection, DepthRegion region,
+             const Frame& frame);
   void Forget();
   void AddUnknown(const DepthRegion& region, const Se3& T_world_camera);
   const Frame* SettledBefore(double age_s) const;

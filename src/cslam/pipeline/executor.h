@@ -23,7 +23,8 @@ using Sinks = std::vector<std::shared_ptr<OutputSink>>;
 
 class Slam::InlineExecutor : public Slam::Executor {
  public:
-  InlineExecutor(const Camera& camera, const SlamOptions& options, Sinks sinks);
+  InlineExecutor(const Camera& camera, const SlamOptions& options, Sinks sinks,
+                 std::unique_ptr<Detector> detector);
   TrackingResult Track(std::shared_ptr<const RgbdFrame> frame) override;
   void Feed(std::shared_ptr<const RgbdFrame> frame) override { Track(std::move(frame)); }
   void Reset() override;
@@ -33,6 +34,8 @@ class Slam::InlineExecutor : public Slam::Executor {
  private:
   void Publish(const MapUpdate& update);
 
+  std::unique_ptr<Detector> detector_;
+  InlineDetection detection_;
   Tracker tracker_;
   Mapper mapper_;
   Sinks sinks_;
@@ -43,15 +46,17 @@ class Slam::InlineExecutor : public Slam::Executor {
 // All threads of SLAM:
 //
 //   caller --frames--> tracker --proposals--> mapper
-//                        |  ^                   |
-//                        |  +---- Latest<> -----+
-//                        +-------events---------+--> sinks
+//                      ^  |  ^                  |
+//    detector--Latest<>+  |  +---- Latest<> ----+
+//       ^---some frames---+-------events--------+--> sinks
+//
+// With a detector that looks at every frame, it stands between caller and tracker instead.
 //
 // Blocking edges go forward only; snapshots come back through a slot that never blocks.
 class Slam::ThreadedExecutor : public Slam::Executor {
  public:
   ThreadedExecutor(const Camera& camera, const SlamOptions& options, Sinks sinks,
-                   FeedPolicy feed_policy);
+                   FeedPolicy feed_policy, std::unique_ptr<Detector> detector);
   ~ThreadedExecutor() override;
   TrackingResult Track(std::shared_ptr<const RgbdFrame> frame) override;
   void Feed(std::shared_ptr<const RgbdFrame> frame) override;

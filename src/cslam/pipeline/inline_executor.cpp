@@ -4,13 +4,16 @@
 
 namespace cslam {
 
-Slam::InlineExecutor::InlineExecutor(const Camera& camera, const SlamOptions& options, Sinks sinks)
-    : tracker_(camera, options.tracking),
+Slam::InlineExecutor::InlineExecutor(const Camera& camera, const SlamOptions& options, Sinks sinks,
+                                     std::unique_ptr<Detector> detector)
+    : detector_(std::move(detector)),
+      detection_(detector_.get(), options.detection),
+      tracker_(camera, options.tracking),
       mapper_(camera, options.tracking.orb, options.tracking.depth, options.mapping),
       sinks_(std::move(sinks)) {}
 
 TrackingResult Slam::InlineExecutor::Track(std::shared_ptr<const RgbdFrame> frame) {
-  TrackerOutput output = tracker_.Process(*frame, snapshot_);
+  TrackerOutput output = tracker_.Process(*frame, snapshot_, detection_.Next(*frame));
   records_.push_back(MakeRecord(output.result));
   for (const auto& sink : sinks_)
     sink->OnFrame(output.result);
@@ -29,6 +32,7 @@ void Slam::InlineExecutor::Publish(const MapUpdate& update) {
 }
 
 void Slam::InlineExecutor::Reset() {
+  detection_.Reset();
   tracker_.Reset();
   mapper_.Reset();
   snapshot_.reset();

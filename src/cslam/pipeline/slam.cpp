@@ -23,14 +23,17 @@ void CheckOptions(const Camera& camera, SlamOptions options) {
 }  // namespace
 
 Slam::Slam(const Camera& camera, const SlamOptions& options, Execution execution,
-           std::vector<std::shared_ptr<OutputSink>> sinks, FeedPolicy feed_policy)
+           std::vector<std::shared_ptr<OutputSink>> sinks, FeedPolicy feed_policy,
+           std::unique_ptr<Detector> detector)
     : camera_(camera) {
   CheckOptions(camera, options);
   cv::setNumThreads(options.pipeline.library_threads);
   if (execution == Execution::kInline) {
-    executor_ = std::make_unique<InlineExecutor>(camera, options, std::move(sinks));
+    executor_ =
+        std::make_unique<InlineExecutor>(camera, options, std::move(sinks), std::move(detector));
   } else {
-    executor_ = std::make_unique<ThreadedExecutor>(camera, options, std::move(sinks), feed_policy);
+    executor_ = std::make_unique<ThreadedExecutor>(camera, options, std::move(sinks), feed_policy,
+                                                   std::move(detector));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "cslam/pipeline/run_result.h"
 #include "cslam/pipeline/sink.h"
 #include "cslam/pipeline/slam_options.h"
+#include "cslam/semantics/detector.h"
 
 #include <memory>
 #include <vector>
@@ -32,10 +33,11 @@ enum class FeedPolicy : std::uint8_t {
 // An error inside a stage surfaces as an exception at the next call. Call from one thread.
 class Slam {
  public:
-  // Throws Error when the camera or an option is unusable.
+  // Throws Error when the camera or an option is unusable. detector: finds people and objects;
+  // null: none does.
   Slam(const Camera& camera, const SlamOptions& options, Execution execution,
        std::vector<std::shared_ptr<OutputSink>> sinks = {},
-       FeedPolicy feed_policy = FeedPolicy::kWait);
+       FeedPolicy feed_policy = FeedPolicy::kWait, std::unique_ptr<Detector> detector = nullptr);
   ~Slam();  // without Finish(), frames that still wait are discarded
   Slam(const Slam&) = delete;
   Slam& operator=(const Slam&) = delete;

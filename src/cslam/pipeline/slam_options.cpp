@@ -22,6 +22,7 @@ void Describe(OptionList& list, PipelineOptions& o) {
 void Describe(OptionList& list, SlamOptions& o) {
   list.Group("tracking", o.tracking);
   list.Group("mapping", o.mapping);
+  list.Group("detection", o.detection);
   list.Group("pipeline", o.pipeline);
 }
 

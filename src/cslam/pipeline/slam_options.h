@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/mapping/mapper_options.h"
+#include "cslam/pipeline/detection_schedule.h"
 #include "cslam/tracking/tracker_options.h"
 
 namespace cslam {
@@ -21,6 +22,7 @@ void Describe(OptionList& list, PipelineOptions& options);
 struct SlamOptions {
   TrackerOptions tracking;
   MapperOptions mapping;
+  DetectionOptions detection;
   PipelineOptions pipeline;
 };
 void Describe(OptionList& list, SlamOptions& options);

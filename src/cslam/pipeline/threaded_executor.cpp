@@ -29,6 +29,7 @@ struct ResetRequest {
 // destructor to be reached uninitialised.
 struct TrackerInput {
   std::shared_ptr<const RgbdFrame> frame;                // null: reset
+  std::shared_ptr<const Detections> detections;          // of this frame, if it waited for them
   std::shared_ptr<std::promise<TrackingResult>> answer;  // set when somebody waits for the pose
   ResetRequest reset;
 };
@@ -54,17 +55,27 @@ void LowerPriorityOfThisThread(int nice) {
 }  // namespace
 
 struct Slam::ThreadedExecutor::Shared {
-  Shared(const Camera& camera, const SlamOptions& options, Sinks all_sinks, FeedPolicy policy)
+  Shared(const Camera& camera, const SlamOptions& options, Sinks all_sinks, FeedPolicy policy,
+         std::unique_ptr<Detector> some_detector)
       : feed_policy(policy),
         max_proposals_ahead(static_cast<std::size_t>(options.pipeline.max_proposals_ahead)),
         mapper_nice(options.pipeline.mapper_nice),
+        detection(options.detection),
+        is_live(ScheduleOf(options.detection, false) == DetectionSchedule::kLive),
         sinks(std::move(all_sinks)),
+        detector(std::move(some_detector)),
         tracker(camera, options.tracking),
         mapper(camera, options.tracking.orb, options.tracking.depth, options.mapping),
         frames(static_cast<std::size_t>(options.pipeline.frame_queue),
                policy == FeedPolicy::kWait ? OnFull::kBlock : OnFull::kDropOldest),
+        observed(1),
+        to_detect(1, OnFull::kDropOldest),
         proposals(kUnbounded),  // bounded by the keyframe policy's max_in_flight
         events(kUnbounded) {
+    if (detector) {
+      detector_thread = std::thread(
+          [this] { Guard([this] { is_live ? RunLiveDetector() : RunDetectorFirst(); }); });
+    }
     tracker_thread = std::thread([this] { Guard([this] { RunTracker(); }); });
     mapper_thread = std::thread([this] { Guard([this] { RunMapper(); }); });
     sink_thread = std::thread([this] { Guard([this] { RunSinks(); }); });
@@ -75,6 +86,9 @@ struct Slam::ThreadedExecutor::Shared {
     Join();
   }
 
+  void RunLiveDetector();
+  void RunDetectorFirst();
+  std::shared_ptr<const Detections> NewestDetections(const std::shared_ptr<const RgbdFrame>& frame);
   void RunTracker();
   void RunMapper();
   void RunSinks();
@@ -89,13 +103,21 @@ struct Slam::ThreadedExecutor::Shared {
   const FeedPolicy feed_policy;
   const std::size_t max_proposals_ahead;
   const int mapper_nice;
+  const DetectionOptions detection;
+  const bool is_live;
   const Sinks sinks;
 
-  Tracker tracker;                   // owned by the tracker thread
-  Mapper mapper;                     // owned by the mapper thread
-  std::vector<FrameRecord> records;  // owned by the sink thread
+  const std::unique_ptr<Detector> detector;  // used by the detector thread; may be null
+  Tracker tracker;                           // owned by the tracker thread
+  Mapper mapper;                             // owned by the mapper thread
+  std::vector<FrameRecord> records;          // owned by the sink thread
 
   Channel<TrackerInput> frames;
+  Channel<TrackerInput> observed;                       // every frame: what the detector has seen
+  Channel<std::shared_ptr<const RgbdFrame>> to_detect;  // live: the newest for it to look at
+  Latest<Detections> newest_detections;
+  Gate first_detection;          // live: waited for once, so that no map starts with people in it
+  std::int64_t num_tracked = 0;  // owned by the tracker thread
   Channel<MapperInput> proposals;
   Channel<Event> events;
   Latest<MapSnapshot> latest;
@@ -104,21 +126,58 @@ struct Slam::ThreadedExecutor::Shared {
   std::mutex failure_mutex;
   std::exception_ptr failure;
 
+  std::thread detector_thread;
   std::thread tracker_thread;
   std::thread mapper_thread;
   std::thread sink_thread;
 };
 
-void Slam::ThreadedExecutor::Shared::RunTracker() {
+// Looks at the newest frame there is, again and again.
+void Slam::ThreadedExecutor::Shared::RunLiveDetector() {
+  LowerPriorityOfThisThread(detection.detector_nice);
+  bool is_first = true;
+  while (auto frame = to_detect.Pop()) {
+    newest_detections.Publish(std::make_shared<const Detections>(detector->Detect(**frame)));
+    if (is_first) first_detection.Leave();
+    is_first = false;
+  }
+}
+
+// Looks at every frame before the tracker gets it.
+void Slam::ThreadedExecutor::Shared::RunDetectorFirst() {
   while (auto input = frames.Pop()) {
+    if (input->frame) {
+      input->detections = std::make_shared<const Detections>(detector->Detect(*input->frame));
+    }
+    observed.Push(std::move(*input));
+  }
+  observed.Close();
+}
+
+std::shared_ptr<const Detections> Slam::ThreadedExecutor::Shared::NewestDetections(
+    const std::shared_ptr<const RgbdFrame>& frame) {
+  if (num_tracked % detection.live_stride == 0) {
+    if (num_tracked == 0) first_detection.Enter();
+    to_detect.Push(frame);
+    if (num_tracked == 0) first_detection.WaitUntilAtMost(0);
+  }
+  ++num_tracked;
+  return newest_detections.Get();
+}
+
+void Slam::ThreadedExecutor::Shared::RunTracker() {
+  Channel<TrackerInput>& source = detector && !is_live ? observed : frames;
+  while (auto input = source.Pop()) {
     if (!input->frame) {
+      newest_detections.Publish(nullptr);
       tracker.Reset();
       in_flight.Enter();
       events.Push(ResetRequest{});
       proposals.Push(std::move(input->reset));
       continue;
     }
-    TrackerOutput output = tracker.Process(*input->frame, latest.Get());
+    if (detector && is_live) input->detections = NewestDetections(input->frame);
+    TrackerOutput output = tracker.Process(*input->frame, latest.Get(), input->detections.get());
     if (output.proposal) {
       in_flight.Enter();
       proposals.Push(std::make_unique<const KeyframeProposal>(std::move(*output.proposal)));
@@ -126,6 +185,7 @@ void Slam::ThreadedExecutor::Shared::RunTracker() {
     if (input->answer) input->answer->set_value(output.result);
     events.Push(std::move(output.result));
   }
+  to_detect.Close();
   proposals.Close();
 }
 
@@ -181,6 +241,7 @@ void Slam::ThreadedExecutor::Shared::Guard(const std::function<void()>& run) {
     CloseAll();
     // Whoever waits for an answer to one of these learns that there will be none.
     frames.Discard();
+    observed.Discard();
     proposals.Discard();
   }
 }
@@ -205,27 +266,35 @@ void Slam::ThreadedExecutor::Shared::RethrowFailure() {
 
 void Slam::ThreadedExecutor::Shared::CloseAll() {
   frames.Close();
+  observed.Close();
+  to_detect.Close();
   proposals.Close();
   events.Close();
   in_flight.Open();
+  first_detection.Open();
 }
 
 void Slam::ThreadedExecutor::Shared::Join() {
-  for (std::thread* thread : {&tracker_thread, &mapper_thread, &sink_thread}) {
+  for (std::thread* thread : {&detector_thread, &tracker_thread, &mapper_thread, &sink_thread}) {
     if (thread->joinable()) thread->join();
   }
 }
 
 Slam::ThreadedExecutor::ThreadedExecutor(const Camera& camera, const SlamOptions& options,
-                                         Sinks sinks, FeedPolicy feed_policy)
-    : shared_(std::make_unique<Shared>(camera, options, std::move(sinks), feed_policy)) {}
+                                         Sinks sinks, FeedPolicy feed_policy,
+                                         std::unique_ptr<Detector> detector)
+    : shared_(std::make_unique<Shared>(camera, options, std::move(sinks), feed_policy,
+                                       std::move(detector))) {}
 
 Slam::ThreadedExecutor::~ThreadedExecutor() = default;
 
 TrackingResult Slam::ThreadedExecutor::Track(std::shared_ptr<const RgbdFrame> frame) {
   auto promise = std::make_shared<std::promise<TrackingResult>>();
   auto answer = promise->get_future();
-  shared_->frames.Push({.frame = std::move(frame), .answer = std::move(promise), .reset = {}});
+  shared_->frames.Push({.frame = std::move(frame),
+                        .detections = nullptr,
+                        .answer = std::move(promise),
+                        .reset = {}});
   return shared_->WaitFor(std::move(answer));
 }
 
@@ -233,7 +302,8 @@ void Slam::ThreadedExecutor::Feed(std::shared_ptr<const RgbdFrame> frame) {
   if (shared_->feed_policy == FeedPolicy::kWait) {
     shared_->in_flight.WaitUntilAtMost(shared_->max_proposals_ahead);
   }
-  shared_->frames.Push({.frame = std::move(frame), .answer = nullptr, .reset = {}});
+  shared_->frames.Push(
+      {.frame = std::move(frame), .detections = nullptr, .answer = nullptr, .reset = {}});
   shared_->RethrowFailure();
 }
 
@@ -242,7 +312,7 @@ void Slam::ThreadedExecutor::Reset() {
   auto promise = std::make_shared<std::promise<void>>();
   auto done = promise->get_future();
   shared_->frames.PushFeedback(
-      {.frame = nullptr, .answer = nullptr, .reset = {std::move(promise)}});
+      {.frame = nullptr, .detections = nullptr, .answer = nullptr, .reset = {std::move(promise)}});
   shared_->WaitFor(std::move(done));
 }
 

@@ -11,7 +11,7 @@
 namespace cslam {
 
 RunOutcome RunSequence(const DatasetReader& dataset, const SlamOptions& options,
-                       const RunSettings& settings,
+                       const RunSettings& settings, std::unique_ptr<Detector> detector,
                        std::vector<std::shared_ptr<OutputSink>> listeners,
                        const std::function<bool()>& is_interrupted) {
   const bool is_inline = settings.execution == Execution::kInline;
@@ -24,7 +24,7 @@ RunOutcome RunSequence(const DatasetReader& dataset, const SlamOptions& options,
   const double cpu_before_s = ProcessCpuSeconds();
   {
     Slam slam(dataset.camera().camera, options, settings.execution, std::move(listeners),
-              is_sensor_rate ? FeedPolicy::kDropOldest : FeedPolicy::kWait);
+              is_sensor_rate ? FeedPolicy::kDropOldest : FeedPolicy::kWait, std::move(detector));
     outcome.play =
         Play(dataset, slam, {.rate = settings.rate, .read_ahead = !is_inline}, is_interrupted);
     outcome.result = slam.Finish();

@@ -37,9 +37,9 @@ struct RunOutcome {
 
 // Runs SLAM on a data set. Inline execution uses one thread for everything, reading included.
 // is_interrupted is asked before every frame; true ends the run with what there is. Throws Error
-// for options or frames that cannot be used.
+// for options or frames that cannot be used. detector: null for none.
 RunOutcome RunSequence(const DatasetReader& dataset, const SlamOptions& options,
-                       const RunSettings& settings,
+                       const RunSettings& settings, std::unique_ptr<Detector> detector,
                        std::vector<std::shared_ptr<OutputSink>> listeners,
                        const std::function<bool()>& is_interrupted);
 

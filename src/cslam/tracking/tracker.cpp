@@ -28,6 +28,7 @@ struct Tracker::CurrentFrame {
   const RgbdFrame* frame = nullptr;
   double since_last_s = 0.0;
   std::optional<Se3> T_world_last;  // in the map as it is now
+  Se3 T_world_predicted;            // at constant velocity
   PoseEstimate estimate;
   KeyframeId reference;                 // shares most points; chosen with the local map
   std::vector<ExpectedPoint> expected;  // of the local map
@@ -43,9 +44,14 @@ Tracker::Tracker(const Camera& camera, const TrackerOptions& options)
       bounds_(UndistortedBounds(camera)),
       options_(options),
       model_(LevelScales(options.orb), options.depth.disparity_sigma_px),
-      extractor_(options.orb) {}
+      observer_(camera_, options_) {}
 
 void Tracker::Reset() {
+  ForgetMap();
+  observer_.Clear();
+}
+
+void Tracker::ForgetMap() {
   state_ = TrackingState::kInitialising;
   map_ = MapId();
   history_.Clear();
@@ -56,12 +62,13 @@ void Tracker::Reset() {
 }
 
 TrackerOutput Tracker::Process(const RgbdFrame& frame,
-                               const std::shared_ptr<const MapSnapshot>& snapshot) {
+                               const std::shared_ptr<const MapSnapshot>& snapshot,
+                               const Detections* detections) {
   snapshot_ = snapshot ? snapshot : std::make_shared<const MapSnapshot>();
   history_.Update(snapshot_->map);
 
   CurrentFrame current;
-  current.data = Observe(frame, current);
+  Observe(frame, detections, current);
   if (state_ == TrackingState::kTracking || state_ == TrackingState::kRecentlyLost) {
     TrackFrame(current);
   }
@@ -73,28 +80,29 @@ TrackerOutput Tracker::Process(const RgbdFrame& frame,
       current.proposal = Propose(current, current.result.keyframe_reason);
     }
   }
-  if (current.is_tracked) Remember(current);
+  if (current.is_tracked) {
+    Remember(current);
+    observer_.Settle(current.estimate.T_world_camera, current.result);
+  } else {
+    observer_.Settle(std::nullopt, current.result);
+  }
   return Report(current);
 }
 
-std::shared_ptr<KeyframeData> Tracker::Observe(const RgbdFrame& frame, CurrentFrame& current) {
-  Stopwatch watch;
-  OrbFeatures orb = extractor_.Extract(frame.gray);
-  AddLap(current.result.times, "extract", watch);
-  auto data = std::make_shared<KeyframeData>();
-  data->frame = frame.id;
-  data->stamp = frame.stamp;
-  data->features = MeasureFeatures(std::move(orb), frame, camera_, bounds_, options_.depth);
-  AddLap(current.result.times, "measure", watch);
-
+void Tracker::Observe(const RgbdFrame& frame, const Detections* detections, CurrentFrame& current) {
   current.frame = &frame;
   current.result.frame = frame.id;
   current.result.stamp = frame.stamp;
-  current.result.num_keypoints = static_cast<int>(data->features.size());
   current.result.map_revision = snapshot_->revision;
   current.since_last_s = last_data_ ? SecondsBetween(frame.stamp, last_tracked_) : 0.0;
   current.T_world_last = history_.T_world_last(snapshot_->map);
-  return data;
+  std::optional<PosePrediction> prediction;
+  if (current.T_world_last) {
+    const Se3 T_last_current = velocity_ ? Exp(*velocity_ * current.since_last_s) : Se3();
+    current.T_world_predicted = *current.T_world_last * T_last_current;
+    prediction = {*current.T_world_last, current.T_world_predicted};
+  }
+  current.data = observer_.Observe(frame, prediction, detections, current.result);
 }
 
 void Tracker::TrackFrame(CurrentFrame& current) {
@@ -111,6 +119,7 @@ void Tracker::TrackFrame(CurrentFrame& current) {
                                      current.estimate.num_inliers(), options_.min_first_inliers));
     return;
   }
+  LeaveOutUnknown(current);
   RefineWithLocalMap(current);
   AddLap(current.result.times, "local_map", watch);
   const int inliers = current.estimate.num_inliers();
@@ -126,9 +135,7 @@ void Tracker::TrackFrame(CurrentFrame& current) {
 
 // Projects what the last frame saw with a constant-velocity prediction.
 bool Tracker::EstimateFromMotion(CurrentFrame& current) {
-  const Se3 T_last_current = velocity_ ? Exp(*velocity_ * current.since_last_s) : Se3();
-  const Se3 T_world_predicted = *current.T_world_last * T_last_current;
-  const Se3 T_predicted_world = T_world_predicted.Inverse();
+  const Se3 T_predicted_world = current.T_world_predicted.Inverse();
 
   const FrameFeatures& last = last_data_->features;
   std::vector<Landmark> landmarks;
@@ -176,8 +183,8 @@ bool Tracker::EstimateFromMotion(CurrentFrame& current) {
   for (const Match& match : found)
     matches[Index(match.keypoint)] = landmarks[Index(match.query)];
   current.estimate =
-      EstimatePose(current.features(), std::move(matches), T_world_predicted, Provisional::kUse,
-                   camera_, options_.depth.baseline_m, model_, options_.pose);
+      EstimatePose(current.features(), std::move(matches), current.T_world_predicted,
+                   Provisional::kUse, camera_, options_.depth.baseline_m, model_, options_.pose);
   return current.estimate.num_inliers() >= options_.min_first_inliers;
 }
 
@@ -208,6 +215,23 @@ bool Tracker::EstimateFromReference(CurrentFrame& current) {
       EstimatePose(current.features(), std::move(matches), *current.T_world_last,
                    Provisional::kIgnore, camera_, options_.depth.baseline_m, model_, options_.pose);
   return current.estimate.num_inliers() >= options_.min_first_inliers;
+}
+
+// Keypoints on things that move though nobody named them go, with their matches.
+void Tracker::LeaveOutUnknown(CurrentFrame& current) {
+  const std::vector<std::uint8_t> is_dynamic = observer_.FindUnknown(
+      current.estimate.T_world_camera, current.estimate.num_inliers(), *current.data);
+  if (is_dynamic.empty()) return;
+  FrameMatches kept;
+  for (std::size_t i = 0; i < is_dynamic.size(); ++i) {
+    if (is_dynamic[i] == 0) {
+      kept.push_back(current.estimate.matches[i]);
+    } else {
+      ++current.result.num_dynamic_keypoints;
+    }
+  }
+  current.data->features = WithoutKeypoints(current.features(), is_dynamic, bounds_);
+  current.estimate.matches = std::move(kept);
 }
 
 void Tracker::RefineWithLocalMap(CurrentFrame& current) {
@@ -322,7 +346,8 @@ void Tracker::StartMap(CurrentFrame& current) {
     }
     return;
   }
-  Reset();
+  ForgetMap();
+  observer_.StartWorld();
   map_ = MapId(next_map_++);
   state_ = TrackingState::kTracking;
   current.is_tracked = true;

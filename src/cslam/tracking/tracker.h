@@ -4,6 +4,7 @@
 
 #include "cslam/messages/messages.h"
 #include "cslam/tracking/frame_matches.h"
+#include "cslam/tracking/frame_observer.h"
 #include "cslam/tracking/local_map.h"
 #include "cslam/tracking/pose_history.h"
 #include "cslam/tracking/tracker_options.h"
@@ -27,8 +28,10 @@ class Tracker {
  public:
   Tracker(const Camera& camera, const TrackerOptions& options);
 
-  // Frames in order of time. snapshot: the newest there is; null before the first.
-  TrackerOutput Process(const RgbdFrame& frame, const std::shared_ptr<const MapSnapshot>& snapshot);
+  // Frames in order of time. snapshot: the newest there is; null before the first. detections: the
+  // newest there are, of this frame or an earlier one; null: none yet.
+  TrackerOutput Process(const RgbdFrame& frame, const std::shared_ptr<const MapSnapshot>& snapshot,
+                        const Detections* detections = nullptr);
 
   // Forgets everything but the ids handed out: the next good frame starts a new map.
   void Reset();
@@ -36,7 +39,8 @@ class Tracker {
  private:
   struct CurrentFrame;  // what is being worked out for the frame at hand
 
-  std::shared_ptr<KeyframeData> Observe(const RgbdFrame& frame, CurrentFrame& current);
+  void Observe(const RgbdFrame& frame, const Detections* detections, CurrentFrame& current);
+  void LeaveOutUnknown(CurrentFrame& current);
   void TrackFrame(CurrentFrame& current);
   bool EstimateFromMotion(CurrentFrame& current);
   bool EstimateFromReference(CurrentFrame& current);
@@ -44,6 +48,7 @@ class Tracker {
   void CountSightings(const CurrentFrame& current);
   void FailToTrack(CurrentFrame& current, std::string reason);
   KeyframeReason DecideKeyframe(const CurrentFrame& current) const;
+  void ForgetMap();
   void StartMap(CurrentFrame& current);
   KeyframeProposal Propose(CurrentFrame& current, KeyframeReason reason);
   void Remember(const CurrentFrame& current);
@@ -54,7 +59,7 @@ class Tracker {
   const ImageBounds bounds_;
   const TrackerOptions options_;
   const MeasurementModel model_;
-  OrbExtractor extractor_;
+  FrameObserver observer_;
 
   std::shared_ptr<const MapSnapshot> snapshot_;
   TrackingState state_ = TrackingState::kInitialising;

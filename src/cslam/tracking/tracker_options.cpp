@@ -50,6 +50,11 @@ void Describe(OptionList& list, TrackerOptions& o) {
   list.Group("pose", o.pose);
   list.Group("keyframe", o.keyframe);
   list.Group("local_map", o.local_map);
+  list.Group("objects", o.objects);
+  list.Add("repopulate_below", o.repopulate_below, {0, 100'000}, "keypoints",
+           "With fewer keypoints off dynamic things, more are taken from the background.");
+  list.Add("report_keypoints", o.report_keypoints,
+           "Hand every keypoint and its label to the sinks, as pictures need them.");
   list.Add("min_initial_points", o.min_initial_points, {10, 10'000}, "points",
            "Keypoints with depth that a map's first frame needs.");
   list.Add("last_frame_radius", o.last_frame_radius_px, {1.0, 200.0}, "px",

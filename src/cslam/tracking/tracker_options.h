@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/objects/object_tracker.h"
 #include "cslam/optim/pose_optimizer.h"
 #include "cslam/vision/frame_features.h"
 #include "cslam/vision/orb.h"
@@ -42,7 +43,10 @@ struct TrackerOptions {
   PoseOptimizerOptions pose{.chi2_mono = 4.0 * 5.991, .chi2_depth = 4.0 * 7.815};
   KeyframePolicyOptions keyframe;
   LocalMapOptions local_map;
+  ObjectTrackerOptions objects;
 
+  int repopulate_below = 700;
+  bool report_keypoints = false;
   int min_initial_points = 100;
   double last_frame_radius_px = 15.0;
   int min_last_frame_matches = 20;

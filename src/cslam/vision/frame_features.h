@@ -16,8 +16,12 @@ namespace cslam {
 
 class OptionList;
 
-// What a keypoint lies on. Only static ones enter the map until objects have their own floor.
-enum class KeypointLabel : std::uint8_t { kStatic, kMovable, kDynamic };
+// What a keypoint lies on.
+enum class KeypointLabel : std::uint8_t {
+  kStatic,   // background
+  kMovable,  // a thing that may be moved, and rests now
+  kDynamic,  // a person, a thing that moves, or one not yet known to rest: of no use
+};
 
 struct KeypointSemantics {
   KeypointLabel label = KeypointLabel::kStatic;
