@@ -8,28 +8,43 @@
 #include "cslam/dataset/stage_room.h"
 
 #include <functional>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace cslam {
 namespace {
 
-// Two ways through the strip before the desks and around them, 44 s, that never come nearer than
-// 0.6 m to each other.
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+FloorPoint Pass(double time_s, double x, double y) {
+  return {time_s, {x, y}};
+}
+
+// A halt, turned to a direction: -90 degrees is to the camera, 90 to the desks.
+FloorPoint Halt(double time_s, double x, double y, double facing_deg) {
+  return {time_s, {x, y}, facing_deg * kDegree};
+}
+
+// Two ways through the strip before the desks and to their sides, 40 s, then again from the start.
 std::vector<FloorPoint> FirstWay() {
-  return {{0.0, {4.3, 2.75}}, {1.5, {4.3, 2.75}},  {4.0, {3.25, 2.25}}, {8.0, {3.25, 2.25}},
-          {9.3, {4.0, 2.35}}, {12.0, {4.0, 2.35}}, {15.0, {1.5, 2.35}}, {16.5, {1.5, 2.35}},
-          {18.5, {3.2, 2.3}}, {22.5, {3.2, 2.3}},  {25.0, {5.6, 2.7}},  {28.5, {5.6, 6.1}},
-          {31.0, {3.5, 6.2}}, {32.5, {3.5, 6.2}},  {35.0, {1.35, 6.0}}, {38.2, {1.35, 3.0}},
-          {40.0, {2.9, 2.3}}, {42.0, {2.9, 2.3}},  {44.0, {4.3, 2.75}}};
+  return {
+      Halt(0.0, 4.2, 2.7, -110.0),    Halt(2.0, 4.2, 2.7, -110.0),  Halt(4.4, 3.1, 2.3, 80.0),
+      Halt(8.0, 3.1, 2.3, 80.0),      Halt(9.5, 4.1, 2.3, -95.0),   Halt(12.2, 4.1, 2.3, -95.0),
+      Pass(14.2, 5.6, 2.5),           Halt(15.0, 5.6, 2.5, 170.0),  Halt(17.0, 3.85, 2.35, -105.0),
+      Halt(22.0, 3.85, 2.35, -105.0), Pass(24.0, 5.55, 2.7),        Halt(26.8, 5.6, 4.9, 180.0),
+      Halt(28.3, 5.6, 4.9, 180.0),    Pass(31.0, 5.55, 2.7),        Halt(32.6, 4.0, 2.5, 75.0),
+      Halt(36.0, 4.0, 2.5, 75.0),     Halt(37.0, 4.2, 2.7, -110.0), Halt(40.0, 4.2, 2.7, -110.0)};
 }
 
 std::vector<FloorPoint> SecondWay() {
-  return {{0.0, {2.6, 2.5}},  {1.8, {2.6, 2.5}},   {4.0, {2.5, 2.8}},   {6.0, {3.8, 2.85}},
-          {8.5, {4.0, 2.9}},  {11.0, {3.1, 2.45}}, {13.0, {3.1, 2.45}}, {15.5, {5.7, 2.6}},
-          {17.0, {5.7, 2.6}}, {19.5, {3.95, 2.4}}, {24.0, {3.95, 2.4}}, {26.5, {3.1, 2.3}},
-          {31.0, {3.1, 2.3}}, {33.0, {4.1, 2.3}},  {38.0, {4.1, 2.3}},  {41.0, {4.0, 2.4}},
-          {44.0, {2.6, 2.5}}};
+  return {
+      Halt(0.0, 2.9, 2.35, 100.0),   Halt(1.5, 2.9, 2.35, 100.0),   Pass(3.2, 2.6, 3.0),
+      Halt(5.4, 3.75, 3.0, -90.0),   Halt(9.5, 3.75, 3.0, -90.0),   Halt(11.5, 3.0, 2.45, 85.0),
+      Halt(12.8, 3.0, 2.45, 85.0),   Pass(15.0, 1.3, 2.5),          Halt(15.4, 1.3, 2.5, 10.0),
+      Halt(17.5, 3.15, 2.45, -75.0), Halt(21.5, 3.15, 2.45, -75.0), Halt(23.5, 3.55, 2.35, 90.0),
+      Halt(27.0, 3.55, 2.35, 90.0),  Halt(28.4, 3.15, 2.35, -85.0), Halt(36.0, 3.1, 2.35, -85.0),
+      Halt(37.0, 2.9, 2.35, 100.0),  Halt(40.0, 2.9, 2.35, 100.0)};
 }
 
 struct Choreography {
@@ -40,6 +55,7 @@ struct Choreography {
 constexpr double kSpareS = 1.0;
 constexpr double kWalkingXyzMPerS = 0.207;  // mean speeds of the recordings
 constexpr double kSittingXyzMPerS = 0.132;
+constexpr double kHalfsphereBackM = 0.1;  // this camera leans far forward
 
 double DurationOf(const StoryOptions& options, double whole_s) {
   return options.is_short ? kShortDynamicS : whole_s;
@@ -72,7 +88,7 @@ Story OfficeWithWalkers(const Stage& stage, const StoryOptions& options,
 }  // namespace
 
 Story MakeWalkingStatic(const Stage& stage, const StoryOptions& options) {
-  return OfficeWithWalkers(stage, options, {.start_s = 0.0}, [&](const PathKey& home) {
+  return OfficeWithWalkers(stage, options, {.start_s = 5.0}, [&](const PathKey& home) {
     return StaticHand(home, DurationOf(options, kWalkingStaticS), options.seed);
   });
 }
@@ -92,7 +108,8 @@ Story MakeWalkingRpy(const Stage& stage, const StoryOptions& options) {
 
 Story MakeWalkingHalfsphere(const Stage& stage, const StoryOptions& options) {
   return OfficeWithWalkers(
-      stage, options, {.start_s = 1.0, .is_mirrored = true}, [&](const PathKey& home) {
+      stage, options, {.start_s = 1.0, .is_mirrored = true}, [&](PathKey home) {
+        home.position.y() -= kHalfsphereBackM;
         return HalfsphereHand(home, DurationOf(options, kWalkingHalfsphereS), options.seed);
       });
 }

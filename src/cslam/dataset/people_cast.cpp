@@ -5,6 +5,7 @@
 #include "cslam/util/check.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace cslam {
 
@@ -24,7 +25,8 @@ std::vector<FloorPoint> CutCycle(const std::vector<FloorPoint>& cycle, double fr
   double lap_s = std::floor(from_s / period_s) * period_s - period_s;
   while (points.size() < 2 || points.back().time_s < to_s - from_s) {
     for (std::size_t i = 0; i + 1 < cycle.size(); ++i) {
-      const FloorPoint point{cycle[i].time_s + lap_s - from_s, cycle[i].position_m};
+      FloorPoint point = cycle[i];
+      point.time_s += lap_s - from_s;
       if (!points.empty() && points.back().time_s >= to_s - from_s) break;
       // Only the last point before the start is kept.
       if (point.time_s <= 0.0) points.clear();
@@ -36,8 +38,10 @@ std::vector<FloorPoint> CutCycle(const std::vector<FloorPoint>& cycle, double fr
 }
 
 std::vector<FloorPoint> Mirrored(std::vector<FloorPoint> points, double x_m) {
-  for (FloorPoint& point : points)
+  for (FloorPoint& point : points) {
     point.position_m.x() = 2.0 * x_m - point.position_m.x();
+    if (point.facing_rad) point.facing_rad = std::numbers::pi - *point.facing_rad;
+  }
   return points;
 }
 
