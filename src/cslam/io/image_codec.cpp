@@ -88,16 +88,19 @@ cv::Mat FinishPng(const std::filesystem::path& path, PngReader& reader, int type
 }  // namespace
 
 cv::Mat ReadColorImage(const std::filesystem::path& path) {
-  const std::string bytes = ReadBytes(path, "image");
-  if (IsJpeg(bytes)) return DecodeJpeg(path, bytes);
-  if (!IsPng(bytes)) ThrowUnknownType(path, bytes);
-  PngReader reader = OpenPng(path, bytes);
+  return DecodeColorImage(ReadBytes(path, "image"), path);
+}
+
+cv::Mat DecodeColorImage(std::string_view bytes, const std::filesystem::path& name) {
+  if (IsJpeg(bytes)) return DecodeJpeg(name, bytes);
+  if (!IsPng(bytes)) ThrowUnknownType(name, bytes);
+  PngReader reader = OpenPng(name, bytes);
   if (reader.header().bit_depth == 16) {
     throw Error("colour image '{}' has 16 bits per channel, expected 8 (is it a depth image?)",
-                path.string());
+                name.string());
   }
   reader.RequestBgr();
-  return FinishPng(path, reader, CV_8UC3);
+  return FinishPng(name, reader, CV_8UC3);
 }
 
 cv::Mat ReadDepthImage(const std::filesystem::path& path) {

@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include <filesystem>
+#include <string_view>
 
 namespace cslam {
 
@@ -13,6 +14,9 @@ namespace cslam {
 
 // H x W, CV_8UC3 in BGR order, from an 8-bit colour or grey image.
 cv::Mat ReadColorImage(const std::filesystem::path& path);
+
+// The same from a file's bytes; name stands for the path in errors.
+cv::Mat DecodeColorImage(std::string_view bytes, const std::filesystem::path& name);
 
 // H x W, CV_16UC1, from a 16-bit single-channel PNG; any other type is an error.
 cv::Mat ReadDepthImage(const std::filesystem::path& path);
