@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kNumChannels = 3;
 
-// The last line of OpenCV's many says what is wrong.
+// On one line.
 std::string Reason(const cv::Exception& error) {
   std::string text = error.err.empty() ? error.what() : error.err;
   std::ranges::replace(text, '\n', ' ');
@@ -111,8 +111,9 @@ struct DnnDetector::Network {
   }
 };
 
-DnnDetector::DnnDetector(ModelDescription model)
+DnnDetector::DnnDetector(ModelDescription model, int num_threads)
     : model_(std::move(model)), network_(std::make_unique<Network>()) {
+  cv::setNumThreads(num_threads);
   network_->net = ReadNetwork(model_);
   network_->output_names = network_->net.getUnconnectedOutLayersNames();
   RgbdFrame grey;  // whatever does not fit shows now, not in the middle of a run

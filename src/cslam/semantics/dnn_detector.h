@@ -13,9 +13,9 @@ namespace cslam {
 // A network run on the CPU by OpenCV. Equal frames give equal detections.
 class DnnDetector final : public Detector {
  public:
-  // Loads the network and runs it once. Throws Error if it cannot be read or does not fit its
-  // description.
-  explicit DnnDetector(ModelDescription model);
+  // Loads the network and runs it once. num_threads: of OpenCV, for the whole process. Throws Error
+  // if the network cannot be read or does not fit its description.
+  explicit DnnDetector(ModelDescription model, int num_threads = 1);
   ~DnnDetector() override;
 
   // The frame's colour image, or its grey one where that is empty.
