@@ -47,7 +47,7 @@ ColorNoiseOptions D435iColorNoise() {
   return {.sigma = 0.3,
           .patch_sigma = 1.0,
           .patch_size_px = 3.0,
-          .softness_px = 0.6,
+          .softness_px = 0.7,
           .vignetting = 0.15,
           .exposure = 1.0};
 }

@@ -11,11 +11,11 @@ namespace cslam {
 // What lens, sensor and the camera's own processing do to a picture. The defaults are those of a
 // first Kinect. Lengths are those of a 640 px wide image.
 struct ColorNoiseOptions {
-  double sigma = 2.0;          // grey levels, per channel, independent from pixel to pixel
-  double patch_sigma = 0.0;    // grey levels, per channel, common to neighbours: what a camera's
+  double sigma = 0.8;          // grey levels, per channel, independent from pixel to pixel
+  double patch_sigma = 1.2;    // grey levels, per channel, common to neighbours: what a camera's
                                // own noise filter leaves
-  double patch_size_px = 3.0;  // size of such a neighbourhood
-  double softness_px = 0.0;    // sigma of the blur by lens and demosaicing
+  double patch_size_px = 2.5;  // size of such a neighbourhood
+  double softness_px = 0.5;    // sigma of the blur by lens and demosaicing
   double vignetting = 0.12;    // share of light lost in the corners
   double exposure = 1.0;       // factor on the light
 };

@@ -112,10 +112,10 @@ std::vector<bool> LitPixels(const float* depth_m, int width, double focal_baseli
 
 DepthNoiseOptions D435iDepthNoise() {
   return {.baseline_m = 0.05,
-          .disparity_sigma_px = 0.015,
+          .disparity_sigma_px = 0.005,
           .patch_sigma_px = 0.08,
-          .patch_size_px = 7.0,
-          .quantum_px = 1.0 / 32.0,
+          .patch_size_px = 10.0,
+          .quantum_px = 1.0 / 16.0,
           .unit_m = 0.001,
           .min_depth_m = 0.3,
           .max_depth_m = 6.0,

@@ -15,12 +15,12 @@ namespace cslam {
 // wide image whatever the size rendered, so that a small image is as noisy in metres as a large
 // one.
 struct DepthNoiseOptions {
-  double baseline_m = 0.075;         // projector to camera
-  double disparity_sigma_px = 0.05;  // independent from pixel to pixel
-  double patch_sigma_px = 0.04;      // common to neighbours
-  double patch_size_px = 8.0;        // size of such a neighbourhood
-  double quantum_px = 0.125;         // step of the disparities
-  double unit_m = 0.0;               // step of the depths reported; 0: none
+  double baseline_m = 0.075;          // projector to camera
+  double disparity_sigma_px = 0.025;  // independent from pixel to pixel
+  double patch_sigma_px = 0.058;      // common to neighbours
+  double patch_size_px = 8.0;         // size of such a neighbourhood
+  double quantum_px = 0.125;          // step of the disparities
+  double unit_m = 0.0;                // step of the depths reported; 0: none
   double min_depth_m = 0.45;
   double max_depth_m = 5.5;
   double edge_dropout = 0.6;      // chance that a pixel at a depth step gives nothing
@@ -31,8 +31,8 @@ struct DepthNoiseOptions {
 };
 
 // Active stereo with the D435i's 50 mm between its cameras: matching windows make errors common to
-// neighbours and holes wider; 0.08 px of error, steps of 1/32 px and whole millimetres as Intel
-// states them.
+// neighbours and holes wider. 0.08 px of error, as Intel states; steps of 1/16 px, whole
+// millimetres.
 DepthNoiseOptions D435iDepthNoise();
 
 // depth_m: H x W, CV_32FC1, exact; the result has 0 where the sensor gives nothing: out of range,

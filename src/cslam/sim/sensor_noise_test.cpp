@@ -39,6 +39,29 @@ TEST(AddDepthNoise, GrowsWithTheSquareOfDepth) {
   EXPECT_NEAR(DepthSigma(4.0, 320), 0.030, 0.010);
 }
 
+TEST(AddDepthNoise, OfTheD435iGrowsWithTheSquareOfDepth) {
+  const auto sigma_m = [](double depth_m) {
+    const cv::Mat wall(240, 320, CV_32FC1, cv::Scalar(depth_m));
+    const cv::Mat noisy = AddDepthNoise(wall, MakeD435iCamera(320, 240), D435iDepthNoise(), 1, 0);
+    EXPECT_EQ(cv::countNonZero(noisy), 240 * 320) << depth_m;
+    return cv::norm(noisy, wall, cv::NORM_L2) / std::sqrt(240.0 * 320.0);
+  };
+  // z^2 / (615 px * 50 mm) * 0.08 px, and a little for the steps.
+  for (const double depth_m : {1.0, 2.0, 4.0})
+    EXPECT_NEAR(sigma_m(depth_m) / (depth_m * depth_m), 0.0026, 0.0006) << depth_m;
+}
+
+TEST(AddDepthNoise, OfTheD435iComesInMillimetresAndWideHoles) {
+  cv::Mat depth_m(120, 160, CV_32FC1, cv::Scalar(3.0));
+  depth_m.colRange(80, 120).setTo(cv::Scalar(1.0));
+  const cv::Mat noisy = AddDepthNoise(depth_m, MakeD435iCamera(160, 120), D435iDepthNoise(), 1, 0);
+  for (const float z : cv::Mat_<float>(noisy))
+    EXPECT_NEAR(z * 1000.0F, std::round(z * 1000.0F), 1e-3F);
+  EXPECT_EQ(cv::countNonZero(noisy.colRange(77, 79)), 0) << "hidden from the second camera";
+  EXPECT_LT(cv::countNonZero(noisy.colRange(119, 121)), 120) << "most of 240 at the other edge";
+  EXPECT_EQ(cv::countNonZero(noisy.colRange(130, 150)), 20 * 120);
+}
+
 TEST(AddDepthNoise, IsAsStrongInSmallImagesAsInLargeOnes) {
   EXPECT_NEAR(DepthSigma(2.0, 160) / DepthSigma(2.0, 640), 1.0, 0.15);
 }

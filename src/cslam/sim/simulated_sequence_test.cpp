@@ -3,6 +3,7 @@
 #include "cslam/sim/simulated_sequence.h"
 
 #include "cslam/sim/room.h"
+#include "cslam/sim/test_world.h"
 #include "cslam/util/check.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -116,6 +118,52 @@ TEST(SimulatedSequence, CountsAndStampsFramesByRate) {
             1e-5);
   EXPECT_THROW(static_cast<void>(sequence.Frame(20)), InternalError);
   EXPECT_THROW(static_cast<void>(sequence.Frame(-1)), InternalError);
+}
+
+// The test world seen from the front for 7 s.
+SimulatedSequence MakeStory(const SequenceOptions& options) {
+  const Se3 T_world_camera = PoseAt({{0.0, -2.5, 1.0}, 0.5 * std::numbers::pi, -0.2});
+  return SimulatedSequence(test::MakeTestWorld(),
+                           {7.0, [T_world_camera](double) { return T_world_camera; }}, options);
+}
+
+TEST(SimulatedSequence, TellsTheSameStoryAtAnyRate) {
+  const SimulatedSequence fast = MakeStory({.width = 160, .height = 120, .fps = 30.0});
+  const SimulatedSequence slow = MakeStory({.width = 160, .height = 120, .fps = 5.0});
+  EXPECT_EQ(fast.size(), 210);
+  EXPECT_EQ(slow.size(), 35);
+  EXPECT_EQ(slow.time_s(16), 3.2);
+  EXPECT_EQ(slow.T_world_camera(0).translation.y(), -2.5);
+  EXPECT_EQ(Difference(slow.Truth(16).instances, fast.Truth(96).instances), 0.0);
+  EXPECT_EQ(Difference(slow.Truth(16).bgr, fast.Truth(96).bgr), 0.0);
+}
+
+TEST(SimulatedSequence, TakesTheCameraItIsGiven) {
+  const SimulatedSequence sequence =
+      MakeStory({.noise = SensorNoise::kD435i, .camera = MakeD435iCamera(160, 120)});
+  EXPECT_EQ(sequence.camera(), MakeD435iCamera(160, 120));
+  EXPECT_EQ(sequence.options().width, 160);
+  EXPECT_EQ(sequence.Frame(0).bgr.size(), cv::Size(160, 120));
+}
+
+TEST(SimulatedSequence, ExposesByTimeAndOnlyWhatTheSensorSees) {
+  SequenceOptions options{.width = 160, .height = 120, .fps = 10.0, .noise = SensorNoise::kOff};
+  const SimulatedSequence plain = MakeStory(options);
+  options.exposure = [](double time_s) { return time_s < 1.0 ? 1.0 : 0.2; };
+  const SimulatedSequence dimmed = MakeStory(options);
+  EXPECT_EQ(Difference(dimmed.Frame(5).bgr, plain.Frame(5).bgr), 0.0);
+  EXPECT_EQ(Difference(dimmed.Truth(15).bgr, plain.Truth(15).bgr), 0.0);
+  EXPECT_NEAR(cv::mean(dimmed.Frame(15).gray)[0] / cv::mean(plain.Frame(15).gray)[0], 0.48, 0.03);
+}
+
+TEST(SimulatedSequence, BlursWhatMovesAndNothingElse) {
+  SequenceOptions options{.width = 160, .height = 120, .fps = 10.0};
+  const SimulatedSequence sharp = MakeStory(options);
+  options.shutter_s = 0.05;
+  const SimulatedSequence blurred = MakeStory(options);
+  EXPECT_EQ(Difference(sharp.Frame(0).bgr, blurred.Frame(0).bgr), 0.0);
+  EXPECT_GT(Difference(sharp.Frame(30).bgr, blurred.Frame(30).bgr), 1000.0);
+  EXPECT_EQ(Difference(sharp.Frame(30).depth_m, blurred.Frame(30).depth_m), 0.0);
 }
 
 TEST(SimulatedSequence, LooksLikeARoomToADepthSensor) {
