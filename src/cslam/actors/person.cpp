@@ -5,6 +5,10 @@
 #include "cslam/actors/person_model.h"
 #include "cslam/actors/plain_body.h"
 #include "cslam/actors/pose_solver.h"
+#include "cslam/actors/rigged_body.h"
+#include "cslam/assets/asset_folder.h"
+#include "cslam/assets/asset_sources.h"
+#include "cslam/assets/blend_file_contents.h"
 #include "cslam/util/check.h"
 
 #include <utility>
@@ -16,8 +20,13 @@ constexpr int kCocoPerson = 0;
 
 }  // namespace
 
-std::shared_ptr<const PersonModel> MakePersonModel(const AssetFolder* /*assets*/, int variant) {
-  return std::make_shared<const PersonModel>(PersonModel{MakePlainBody(LookOf(variant))});
+std::shared_ptr<const PersonModel> MakePersonModel(const AssetFolder* assets, int variant) {
+  const PersonLook look = LookOf(variant);
+  if (assets == nullptr)
+    return std::make_shared<const PersonModel>(PersonModel{MakePlainBody(look)});
+  const std::filesystem::path file = assets->File(kHumanRigFile);
+  return std::make_shared<const PersonModel>(
+      PersonModel{MakeRiggedBody(ReadBlendContents(file), look, file)});
 }
 
 BodyShape ShapeOf(const PersonModel& model, const PersonPose& pose) {

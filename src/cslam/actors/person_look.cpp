@@ -53,7 +53,7 @@ double SecondAt(const PersonLook& look, double x_m, double y_m) {
 
 cv::Mat PaintCloth(const PersonLook& look, cv::Size size, double texels_per_m, bool has_pattern,
                    Rng rng) {
-  const cv::Mat folds = Folds(size, texels_per_m, 26.0, rng);
+  const cv::Mat folds = Folds(size, texels_per_m, 20.0, rng);
   const double grain = has_pattern && look.weave == Weave::kMelange ? 16.0 : 6.0;
   const cv::Scalar first = has_pattern ? look.shirt : look.trousers;
   cv::Mat image(size, CV_8UC3);
@@ -121,7 +121,7 @@ PersonLook LookOf(int variant) {
   static const std::array<cv::Scalar, 5> kTrousers{
       {{105, 70, 45}, {55, 52, 50}, {95, 125, 150}, {120, 110, 100}, {70, 45, 30}}};
   static const std::array<cv::Scalar, 5> kSkins{
-      {{150, 175, 220}, {120, 150, 200}, {165, 190, 232}, {75, 105, 160}, {50, 72, 115}}};
+      {{130, 158, 205}, {108, 138, 190}, {140, 170, 215}, {75, 105, 160}, {50, 72, 115}}};
   static const std::array<cv::Scalar, 5> kHairs{
       {{30, 40, 55}, {25, 25, 28}, {60, 95, 140}, {45, 62, 92}, {110, 110, 115}}};
   static const std::array<cv::Scalar, 4> kShoes{

@@ -8,7 +8,7 @@
 namespace cslam {
 namespace {
 
-constexpr double kLegStretch = 0.99;      // people never walk with knees locked: at least 16 deg
+constexpr double kLegStretch = 0.996;     // people never walk with knees locked: at least 10 deg
 constexpr double kSinkSharpness = 0.006;  // m; how softly the pelvis begins to sink
 constexpr double kLowestPelvis = 0.6;     // of its height when standing
 constexpr double kForearmTwist = 0.5;     // share of the hand's turn that the forearm takes

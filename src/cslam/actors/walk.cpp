@@ -63,7 +63,7 @@ class Walker final : public PersonMotion {
         steps_.Lift(Side::kRight, time_s) - steps_.Lift(Side::kLeft, time_s);  // > 0: on the left
     const double shift = shift_(time_s) * ease;
     pose.pelvis_shift_m = {0.0, kSway_m * (lift + shift),
-                           -0.012 - kBob_m * spread * spread - 0.008 * std::abs(shift)};
+                           -0.004 - kBob_m * spread * spread - 0.008 * std::abs(shift)};
     // The hip of the foot that swings drops a little, the chest stays upright.
     pose.pelvis_turn_rad = {-0.04 * (lift - 0.7 * shift), 0.03, -kPelvisTwist_rad * spread};
     const double lean = 0.03 * std::min(body.speed_m_s, 1.5);
