@@ -27,25 +27,29 @@ std::string Duration(double seconds) {
   return fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
-std::string TimeLeft(int done, int total, double elapsed_s) {
+std::string TimeLeft(int done, int total, double elapsed_s, int already_done) {
   if (done == total) return "took " + Duration(elapsed_s);
-  if (done == 0) return "";
-  return Duration(elapsed_s * (total - done) / done) + " left";
+  if (done <= already_done) return "";
+  return Duration(elapsed_s * (total - done) / (done - already_done)) + " left";
 }
 
 }  // namespace
 
-std::string ProgressText(int done, int total, double elapsed_s) {
+std::string ProgressText(int done, int total, double elapsed_s, int already_done) {
   CSLAM_CHECK(done >= 0 && done <= total && total > 0, "{} of {}", done, total);
   const auto filled = static_cast<std::size_t>(kWidth * static_cast<long>(done) / total);
   return fmt::format("[{}{}] {:3} %  {} of {}  {}", std::string(filled, '#'),
                      std::string(kWidth - filled, '.'), 100L * done / total, done, total,
-                     TimeLeft(done, total, elapsed_s));
+                     TimeLeft(done, total, elapsed_s, already_done));
 }
 
-ProgressBar::ProgressBar(std::string label, int total)
-    : label_(std::move(label)), total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {
-  if (is_terminal_) Redraw(0);
+ProgressBar::ProgressBar(std::string label, int total, int already_done)
+    : label_(std::move(label)),
+      total_(total),
+      already_done_(already_done),
+      is_terminal_(isatty(STDERR_FILENO) != 0),
+      last_tenth_(static_cast<int>(10L * already_done / total)) {
+  if (is_terminal_) Redraw(already_done);
 }
 
 ProgressBar::~ProgressBar() {
@@ -62,8 +66,8 @@ void ProgressBar::Update(int done) {
 
 void ProgressBar::Redraw(int done) {
   last_redraw_ms_ = since_start_.ElapsedMs();
-  fmt::print(stderr, "\r{} {}{}", label_, ProgressText(done, total_, 1e-3 * last_redraw_ms_),
-             kClearToEndOfLine);
+  fmt::print(stderr, "\r{} {}{}", label_,
+             ProgressText(done, total_, 1e-3 * last_redraw_ms_, already_done_), kClearToEndOfLine);
   std::fflush(stderr);
   is_line_open_ = true;
 }
@@ -73,7 +77,7 @@ void ProgressBar::PrintTenth(int done) {
   if (tenth == last_tenth_) return;
   last_tenth_ = tenth;
   fmt::print(stderr, "{} {} of {}, {}\n", label_, done, total_,
-             TimeLeft(done, total_, 1e-3 * since_start_.ElapsedMs()));
+             TimeLeft(done, total_, 1e-3 * since_start_.ElapsedMs(), already_done_));
 }
 
 }  // namespace cslam

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "render_sequences.h"
+
+#include "cslam/assets/procedural_props.h"
+#include "cslam/dataset/sequence_writer.h"
+#include "cslam/util/options.h"
+
+#include <fmt/format.h>
+#include <opencv2/core/utility.hpp>
+
+#include <sched.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string_view>
+#include <utility>
+
+#include "cli_common.h"
+#include "disk_space.h"
+#include "exit_codes.h"
+#include "interrupt.h"
+#include "progress_bar.h"
+#include "version.h"
+
+namespace cslam {
+namespace {
+
+// Thrown out of a download that the user ends.
+struct Interrupted {};
+
+struct Task {
+  SequenceEntry entry;
+  std::filesystem::path folder;
+};
+
+SequenceEntry FindEntry(std::string_view name) {
+  std::vector<std::string> names;
+  for (const SequenceEntry& entry : RenderableSequences()) {
+    if (name == entry.name) return entry;
+    names.emplace_back(entry.name);
+  }
+  const std::string nearest = NearestName(name, names);
+  throw UsageError(fmt::format("unknown sequence '{}'{} (see 'changing-slam dataset list')", name,
+                               nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
+std::vector<Task> MakeTasks(const RenderArguments& arguments) {
+  std::vector<SequenceEntry> entries;
+  if (arguments.names == std::vector<std::string>{"all"}) {
+    entries = RenderableSequences();
+  } else {
+    for (const std::string& name : arguments.names)
+      entries.push_back(FindEntry(name));
+  }
+  std::vector<Task> tasks;
+  for (const SequenceEntry& entry : entries) {
+    const bool is_only = entries.size() == 1;
+    tasks.push_back({entry, is_only ? arguments.folder : arguments.folder / entry.name});
+  }
+  return tasks;
+}
+
+int NumCores() {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  if (sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;
+  return std::max(1, CPU_COUNT(&cores));
+}
+
+// Before minutes of downloads and work: are the folders free, and is there room?
+void CheckFolders(const std::vector<Task>& tasks, const RenderArguments& arguments) {
+  double needed_bytes = 0.0;
+  for (const Task& task : tasks) {
+    if (arguments.existing != ExistingFolder::kResume)
+      CheckSequenceFolder(task.folder, RenderRecord{}, arguments.existing);
+    const double existing_bytes =
+        arguments.existing == ExistingFolder::kRefuse ? 0.0 : BytesIn(task.folder);
+    needed_bytes += std::max(0.0, EstimatedBytes(task.entry, arguments.request) - existing_bytes);
+  }
+  CheckFreeSpace(arguments.folder, needed_bytes);
+}
+
+void Announce(const Task& task, const RenderRequest& request) {
+  const int num_frames = CountFrames(task.entry, request);
+  fmt::print(stderr, "'{}'{}: {} frame{} of {}x{} at {} Hz, about {} in '{}'\n", task.entry.name,
+             request.is_short ? " (short form)" : "", num_frames, num_frames == 1 ? "" : "s",
+             request.width, request.height, request.fps,
+             FormatBytes(EstimatedBytes(task.entry, request)), task.folder.string());
+  RenderRequest whole = request;
+  whole.num_frames = 0;
+  if (num_frames > CountFrames(task.entry, whole)) {
+    const double story_s = request.is_short ? task.entry.short_duration_s : task.entry.duration_s;
+    fmt::print(stderr, "warning: the camera rests after {} s, the end of its path\n", story_s);
+  }
+}
+
+// What downloads say: a bar for each package whose size is known.
+class FetchReporter {
+ public:
+  void Report(const FetchProgress& progress) {
+    if (InterruptRequested()) throw Interrupted{};
+    if (progress.package != package_) {
+      bar_.reset();
+      package_ = progress.package;
+      if (progress.total_mb <= 0.0) fmt::print(stderr, "fetching {}\n", package_);
+    }
+    if (progress.total_mb <= 0.0) return;
+    const int total = std::max(1, static_cast<int>(progress.total_mb));
+    if (!bar_) bar_.emplace(fmt::format("fetching {} [MB]", package_), total);
+    bar_->Update(std::clamp(static_cast<int>(progress.done_mb), 0, total));
+  }
+
+ private:
+  std::string package_;
+  std::optional<ProgressBar> bar_;
+};
+
+AssetStatus LoadAssets(const std::vector<Task>& tasks, Look wish) {
+  const bool are_needed =
+      std::ranges::any_of(tasks, [](const Task& task) { return task.entry.make != nullptr; });
+  if (!are_needed) return {std::make_shared<const ProceduralProps>(), std::nullopt, ""};
+  FetchReporter reporter;
+  AssetStatus status =
+      LoadOrFetchAssets(wish, [&](const FetchProgress& progress) { reporter.Report(progress); });
+  if (!status.note.empty()) fmt::print(stderr, "warning: {}\n", status.note);
+  return status;
+}
+
+// Turns what ends a rendering into a line that says how to go on.
+WriteOutcome Write(const Rendering& rendering, const Task& task, const RenderArguments& arguments) {
+  std::optional<ProgressBar> bar;
+  std::stop_source stop;
+  WriteSequenceOptions options;
+  options.jobs = arguments.jobs > 0 ? arguments.jobs : NumCores();
+  options.existing = arguments.existing;
+  options.stop = stop.get_token();
+  options.progress = [&](int done, int total) {
+    if (!bar) {
+      if (done > 0) fmt::print(stderr, "{} of {} frames are there already\n", done, total);
+      bar.emplace("rendering", total, done);
+    }
+    bar->Update(done);
+    if (InterruptRequested()) stop.request_stop();
+  };
+  try {
+    return WriteSequence(rendering.sequence, rendering.record, task.folder, options);
+  } catch (const Error& error) {
+    if (!bar) throw;
+    throw Error("{}; the frames that are done are kept, --resume goes on", error.what());
+  }
+}
+
+int Render(const Task& task, const RenderArguments& arguments, const AssetStatus& assets) {
+  Announce(task, arguments.request);
+  const Stage stage{*assets.props, assets.folder ? &*assets.folder : nullptr};
+  Rendering rendering = MakeRendering(task.entry, arguments.request, stage);
+  rendering.record.program = fmt::format("changing-slam {} ({})", Version(), GitCommit());
+  rendering.record.command = CommandOf(rendering.record);
+  if (Write(rendering, task, arguments) == WriteOutcome::kComplete) return kExitOk;
+  fmt::print(stderr, "interrupted; the frames that are done are kept, --resume goes on\n");
+  return kExitInterrupted;
+}
+
+}  // namespace
+
+int RenderSequences(const RenderArguments& arguments) {
+  const std::vector<Task> tasks = MakeTasks(arguments);
+  CheckFolders(tasks, arguments);
+  CatchInterrupts();
+  cv::setNumThreads(1);  // the frames are spread over the cores already
+  try {
+    const AssetStatus assets = LoadAssets(tasks, arguments.look);
+    for (const Task& task : tasks) {
+      const int exit_code = Render(task, arguments, assets);
+      if (exit_code != kExitOk) return exit_code;
+    }
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "interrupted\n");
+    return kExitInterrupted;
+  }
+  return kExitOk;
+}
+
+}  // namespace cslam

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/assets/asset_fetch.h"
+#include "cslam/dataset/rendering.h"
+#include "cslam/dataset/sequence_folder.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cslam {
+
+struct RenderArguments {
+  std::vector<std::string> names;  // of sequences, or "all"
+  std::filesystem::path folder;    // of one sequence; of several: one folder each below it
+  RenderRequest request;
+  Look look = Look::kAuto;
+  int jobs = 0;  // 0: one for each core
+  ExistingFolder existing = ExistingFolder::kRefuse;
+};
+
+// Does what `dataset render` was asked to; says on stderr what, how large and how far. Returns the
+// exit code. Throws Error, UsageError for unknown names.
+int RenderSequences(const RenderArguments& arguments);
+
+}  // namespace cslam

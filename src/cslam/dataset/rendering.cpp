@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/dataset/rendering.h"
+
+#include "cslam/util/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cslam {
+namespace {
+
+constexpr double kDemoDurationS = 20.0;
+constexpr SequenceEntry kDemo{
+    .name = "demo",
+    .summary = "hand-held tour of a furnished room: 8 m, a full turn, nothing moves",
+    .sensor = SensorKind::kKinect,
+    .duration_s = kDemoDurationS,
+    .short_duration_s = kDemoDurationS,
+    .make = nullptr};
+
+// Finer than a pixel where things are a metre away; coarse textures are made faster.
+double TexelsPerM(int width) {
+  constexpr double kPerPixel = 1.5;
+  return std::clamp(kPerPixel * width, 160.0, 960.0);
+}
+
+SequenceOptions OptionsOf(const SequenceEntry& entry, const RenderRequest& request) {
+  SequenceOptions options;
+  options.width = request.width;
+  options.height = request.height;
+  options.fps = request.fps;
+  options.num_frames = request.num_frames;
+  options.noise = NoiseOf(entry, request);
+  options.seed = request.seed;
+  return options;
+}
+
+SimulatedSequence MakeSequence(Story story, SequenceOptions options) {
+  options.camera = story.sensor == SensorKind::kD435i
+                       ? MakeD435iCamera(options.width, options.height)
+                       : MakeSimulatedCamera(options.width, options.height);
+  options.exposure = std::move(story.exposure);
+  options.shutter_s = kUsualShutterS;
+  return {std::move(story.world), std::move(story.camera), options};
+}
+
+double DurationS(const SequenceEntry& entry, const RenderRequest& request) {
+  return request.is_short ? entry.short_duration_s : entry.duration_s;
+}
+
+}  // namespace
+
+std::vector<SequenceEntry> RenderableSequences() {
+  std::vector<SequenceEntry> entries{kDemo};
+  entries.insert(entries.end(), AllSequences().begin(), AllSequences().end());
+  return entries;
+}
+
+int CountFrames(const SequenceEntry& entry, const RenderRequest& request) {
+  if (request.num_frames > 0) return request.num_frames;
+  return std::max(1, static_cast<int>(std::floor(DurationS(entry, request) * request.fps + 1e-9)));
+}
+
+SensorNoise NoiseOf(const SequenceEntry& entry, const RenderRequest& request) {
+  const bool is_kinect = entry.sensor == SensorKind::kKinect;
+  return request.noise.value_or(is_kinect ? SensorNoise::kKinect : SensorNoise::kD435i);
+}
+
+Rendering MakeRendering(const SequenceEntry& entry, const RenderRequest& request,
+                        const Stage& stage) {
+  const SequenceOptions options = OptionsOf(entry, request);
+  const auto describe = [&](const SimulatedSequence& sequence) {
+    RenderRecord record = DescribeSequence(sequence, std::string(entry.name));
+    record.summary = entry.summary;
+    record.is_short = request.is_short;
+    record.story_duration_s = DurationS(entry, request);
+    return record;
+  };
+  if (entry.make == nullptr) {
+    SimulatedSequence sequence = MakeDemoSequence(options);
+    RenderRecord record = describe(sequence);
+    return {std::move(sequence), std::move(record)};
+  }
+  Story story = entry.make(stage, {.seed = request.seed,
+                                   .is_short = request.is_short,
+                                   .texels_per_m = TexelsPerM(request.width)});
+  const double duration_s = story.camera.duration_s;
+  const PeopleClaim people = story.people;
+  SimulatedSequence sequence = MakeSequence(std::move(story), options);
+  RenderRecord record = describe(sequence);
+  record.look = stage.props.look();
+  record.story_duration_s = duration_s;
+  record.people = people;
+  return {std::move(sequence), std::move(record)};
+}
+
+std::string CommandOf(const RenderRecord& record) {
+  const bool is_whole =
+      record.num_frames ==
+      std::max(1, static_cast<int>(std::floor(record.story_duration_s * record.fps + 1e-9)));
+  return fmt::format(
+      "changing-slam dataset render {} --out DIR --seed {} --fps {} --size {}x{} --noise {} --look "
+      "{}{}{}",
+      record.sequence, record.seed, record.fps, record.width_px, record.height_px,
+      NameOf(record.noise), record.look, record.is_short ? " --short" : "",
+      is_whole ? "" : fmt::format(" --frames {}", record.num_frames));
+}
+
+double EstimatedBytes(const SequenceEntry& entry, const RenderRequest& request) {
+  // Measured on the demo room from 64x48 to 1280x960.
+  const double bytes_per_pixel = NoiseOf(entry, request) == SensorNoise::kOff ? 1.8 : 2.5;
+  constexpr double kBytesPerFrame = 4000.0;  // small images compress less
+  const double pixels = static_cast<double>(request.width) * request.height;
+  return CountFrames(entry, request) * (kBytesPerFrame + bytes_per_pixel * pixels);
+}
+
+}  // namespace cslam
