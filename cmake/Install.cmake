@@ -6,6 +6,10 @@ set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cslam)
 install(TARGETS changing_slam RUNTIME COMPONENT runtime)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/changing-slam
         COMPONENT runtime)
+install(PROGRAMS tools/convert_model.py tools/install_model.py
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/changing-slam COMPONENT runtime)
+install(FILES tools/onnx_rewrite.py tools/tfjs_model.py
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/changing-slam COMPONENT runtime)
 
 get_property(layer_targets GLOBAL PROPERTY CSLAM_LAYER_TARGETS)
 install(TARGETS ${layer_targets} EXPORT cslam-targets ARCHIVE COMPONENT development)
@@ -33,6 +37,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME changing-slam)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "python3, python3-onnx, python3-numpy")  # model install
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcslam-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libopencv-dev, libeigen3-dev, libceres-dev, libfmt-dev, libspdlog-dev, libyaml-cpp-dev, \

@@ -23,13 +23,15 @@ try:
     import onnx.shape_inference
     from google.protobuf.message import DecodeError
 except ImportError as missing:
-    sys.exit(f"convert_model.py: error: {missing.name} is missing; install it with 'apt-get "
-             "install python3-onnx python3-numpy' and call this with /usr/bin/python3")
+    sys.exit(f"changing-slam: error: Python lacks {missing.name}, which converts models; install it "
+             "with 'apt-get install python3-onnx python3-numpy'")
 
 from onnx_rewrite import num_cells, rewrite_nanodet_plus, shape_of
 from tfjs_model import ConversionError, read_tfjs_model
 
-DEFAULT_SIZE = (416, 320)  # for 4:3 images: the shape fits and the short side costs less
+# For images of 4:3. NanoDet-g misses near people when its input is larger (docs/models.md).
+NANODET_SIZE = (352, 256)
+NANODET_PLUS_SIZE = (416, 320)
 SIZE_STEP_PX = 32
 NUM_CLASSES = 80
 NUM_SIDES = 4
@@ -130,7 +132,7 @@ def convert_onnx(file, arguments):
     model, old_size, outputs = load_onnx(file)
     decoder, channels = guess_decoder(file, old_size, outputs)
     is_as_published = decoder == "nanodet-plus" and old_size[0] == old_size[1]
-    size = arguments.size or (DEFAULT_SIZE if is_as_published else old_size)
+    size = arguments.size or (NANODET_PLUS_SIZE if is_as_published else old_size)
     fields = {"decoder": decoder, "width": size[0], "height": size[1]}
     licence = "see its source"
     if decoder == "nanodet-plus":
@@ -152,7 +154,7 @@ def convert_onnx(file, arguments):
 
 
 def convert_tfjs(file, arguments):
-    size = arguments.size or DEFAULT_SIZE
+    size = arguments.size or NANODET_SIZE
     model = read_tfjs_model(file, *size)
     channels = shape_of(model.graph.output[0])[1]
     fields = {"decoder": "nanodet", "width": size[0], "height": size[1],
@@ -190,7 +192,7 @@ def main():
     try:
         print(convert(parse_arguments()))
     except (ConversionError, OSError) as error:
-        sys.exit(f"convert_model.py: error: {error}")
+        sys.exit(f"changing-slam: error: {error}")
 
 
 if __name__ == "__main__":
