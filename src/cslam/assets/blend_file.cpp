@@ -7,6 +7,7 @@
 #include "cslam/util/check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
