@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -116,6 +117,20 @@ Mesh Filtered(const Mesh& mesh, const std::function<bool(std::size_t)>& keep) {
     result.triangles.push_back(triangle);
   }
   return result;
+}
+
+Mesh Cleaned(const Mesh& mesh, double min_area_m2) {
+  const auto min_cross = static_cast<float>(2.0 * min_area_m2);
+  std::set<std::array<Key, 3>> places;
+  return Filtered(mesh, [&](std::size_t t) {
+    const Triangle& triangle = mesh.triangles[t];
+    if (Cross(mesh, triangle).norm() < min_cross) return false;
+    std::array<Key, 3> place;
+    for (std::size_t i = 0; i < 3; ++i)
+      place.at(i) = KeyOf(mesh.positions[triangle.vertices.at(i)]);
+    std::ranges::sort(place);
+    return places.insert(place).second;
+  });
 }
 
 Mesh FacingOutwards(Mesh mesh) {

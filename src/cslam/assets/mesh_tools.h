@@ -22,6 +22,10 @@ Mesh Mapped(Mesh mesh, const Eigen::Affine3d& T_b_a);
 // Only the triangles for which keep(index) holds.
 Mesh Filtered(const Mesh& mesh, const std::function<bool(std::size_t triangle)>& keep);
 
+// Without triangles of less than this area (m^2), which have no sure normal, and without the second
+// of two in the same place, as files have them for the back of thin things.
+Mesh Cleaned(const Mesh& mesh, double min_area_m2);
+
 // Triangles turned so that their front looks where there is more open space: files do not always
 // wind them the same way.
 Mesh FacingOutwards(Mesh mesh);

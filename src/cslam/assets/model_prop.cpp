@@ -4,7 +4,6 @@
 
 #include "cslam/assets/mesh_tools.h"
 #include "cslam/io/image_codec.h"
-#include "cslam/sim/picture_paint.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -17,6 +16,7 @@ namespace cslam {
 namespace {
 
 constexpr double kMaxSideM = 0.12;        // of triangles: light is stored per vertex
+constexpr double kMinAreaM2 = 1e-9;       // a square of 0.03 mm: nothing one could see
 constexpr double kCreaseRad = 0.7;        // edges sharper than 40 degrees stay sharp
 constexpr double kMinOpacity = 0.5;       // less is glass
 constexpr int kMaxTexturePx = 1024;       // larger pictures are halved
@@ -61,17 +61,34 @@ bool NameHas(const std::string& name, std::initializer_list<std::string_view> wo
       words, [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }
 
-// The picture with its hues turned; grey stays grey.
+// Is other colours of it all right? There are no blue plants and no pink bears.
+bool TakesTint(PropKind kind) {
+  switch (kind) {
+    case PropKind::kChair:
+    case PropKind::kCouch:
+    case PropKind::kSuitcase:
+    case PropKind::kMug:
+    case PropKind::kBackpack:
+      return true;
+    default:
+      return false;
+  }
+}
+
+// The picture with its hues turned; grey stays grey, and wood stays wood.
 cv::Mat Tinted(const cv::Mat& bgr, int tint) {
   if (tint == 0) return bgr;
-  constexpr int kHues = 180;  // of OpenCV's 8-bit HSV
-  constexpr int kStep = 67;   // visits all hues, neighbours far apart
+  constexpr int kHues = 180;     // of OpenCV's 8-bit HSV
+  constexpr int kWoodFirst = 6;  // orange to brown
+  constexpr int kWoodLast = 26;
+  constexpr int kStep = 67;  // visits all hues, neighbours far apart
   cv::Mat hsv;
   cv::cvtColor(bgr, hsv, cv::COLOR_BGR2HSV);
   for (int y = 0; y < hsv.rows; ++y) {
     for (int x = 0; x < hsv.cols; ++x) {
       auto& pixel = hsv.at<cv::Vec3b>(y, x);
-      pixel[0] = static_cast<uchar>((pixel[0] + tint * kStep) % kHues);
+      const bool is_wood = pixel[0] >= kWoodFirst && pixel[0] <= kWoodLast;
+      if (!is_wood) pixel[0] = static_cast<uchar>((pixel[0] + tint * kStep) % kHues);
     }
   }
   cv::Mat result;
@@ -145,6 +162,7 @@ Mesh PrepareModel(ObjModel model, const PackageModel& choice, const ModelFit& fi
   const Eigen::Vector3d bottom(bounds.center().x(), bounds.center().y(), bounds.min().z());
   const Eigen::Vector3d scale = fit.size_m.cwiseQuotient(bounds.sizes().cwiseMax(1e-9));
   mesh = Mapped(std::move(mesh), Eigen::Scaling(scale) * Eigen::Translation3d(-bottom));
+  mesh = Cleaned(mesh, kMinAreaM2);
   mesh = WithNormals(FacingOutwards(std::move(mesh)), kCreaseRad);
   for (std::size_t m = 0; m < model.materials.size(); ++m) {
     const int index = static_cast<int>(m);
@@ -166,7 +184,8 @@ Mesh PrepareModel(ObjModel model, const PackageModel& choice, const ModelFit& fi
 }
 
 std::vector<int> PaintModel(const std::vector<ObjMaterial>& materials, const PackageModel& choice,
-                            int tint, PropBrush& brush) {
+                            int round, PropBrush& brush) {
+  const int tint = TakesTint(choice.kind) ? round : 0;
   std::vector<int> indices;
   for (const ObjMaterial& material : materials) {
     switch (RoleOf(material, choice)) {
@@ -174,14 +193,10 @@ std::vector<int> PaintModel(const std::vector<ObjMaterial>& materials, const Pac
         indices.push_back(
             brush.Picture(Tinted(LimitedSize(ReadColorImage(material.texture)), tint)));
         break;
-      case Role::kScreen: {
-        const cv::Size size = brush.Texels(0.5, 0.3);
-        const bool is_tv = choice.kind == PropKind::kTelevision;
-        indices.push_back(brush.Picture(
-            is_tv ? PaintPhoto(size, brush.NextRng()) : PaintScreen(size, brush.NextRng()),
-            kScreenEmission));
+      case Role::kScreen:
+        indices.push_back(brush.Picture(PaintLitScreen(brush.Texels(0.5, 0.3), brush.NextRng()),
+                                        kScreenEmission));
         break;
-      }
       case Role::kFabric:
         indices.push_back(brush.RichFabric());
         break;

@@ -24,9 +24,9 @@ ModelFit FitModel(const PackageModel& choice, const CatalogueEntry& entry);
 // light, and with texture coordinates for the materials that PaintModel makes. Glass is left out.
 Mesh PrepareModel(ObjModel model, const PackageModel& choice, const ModelFit& fit);
 
-// Puts the model's materials into the brush's scene; the result is parallel to `materials`. tint:
-// 0 keeps the model's colours, others change them.
+// Puts the model's materials into the brush's scene; the result is parallel to `materials`. round:
+// 0 keeps the model's colours, others change them where that makes sense.
 std::vector<int> PaintModel(const std::vector<ObjMaterial>& materials, const PackageModel& choice,
-                            int tint, PropBrush& brush);
+                            int round, PropBrush& brush);
 
 }  // namespace cslam

@@ -54,7 +54,6 @@ constexpr auto kModels = std::to_array<PackageModel>({
     {PropKind::kBookcase, kKator, "/katorlegaz/full-bookcase/full-bookcase.obj", 0.0, 1.25},
     {PropKind::kCabinet, kCcBy, "/blendswap-cc-by/bedsideTable/bedsideTable.obj", 0.0, 1.4},
     {PropKind::kCabinet, kCc0, "/blendswap-cc-0/bedsideTable2/bedsideTable2.obj", 0.0, 1.4},
-    {PropKind::kCarton, kScopia, "/scopia/cardboard-box/cardboard-box.obj", 0.0, 2.0},
 });
 
 constexpr auto kTextures = std::to_array<PackageTexture>({

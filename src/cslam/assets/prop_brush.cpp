@@ -53,18 +53,18 @@ int PropBrush::Fur(const cv::Scalar& color_bgr) {
 }
 
 cv::Mat PaintRichFabric(cv::Size size, double texels_per_m, Rng rng) {
-  const cv::Scalar ground = RandomColor(rng, 0.55, rng.Uniform(0.35, 0.55));
+  // Shades of one colour: in many colours, detectors take an armchair for a cake.
+  const cv::Scalar ground = RandomColor(rng, rng.Uniform(0.25, 0.5), rng.Uniform(0.38, 0.5));
   cv::Mat image = PaintNoise(FractalNoise(size, {0.2 * texels_per_m, 0.2 * texels_per_m}, 6, rng),
-                             ground, 26.0, 7.0, rng);
+                             ground, 20.0, 6.0, rng);
   const double area_m2 = size.area() / (texels_per_m * texels_per_m);
-  constexpr double kMotifsPerM2 = 420.0;
+  constexpr double kMotifsPerM2 = 700.0;
   const int motifs = static_cast<int>(kMotifsPerM2 * area_m2);
   for (int i = 0; i < motifs; ++i) {
     const cv::Point at(RandomInt(rng, 0, size.width), RandomInt(rng, 0, size.height));
-    const double size_m =
-        rng.Uniform(0.006, 0.035) * rng.Uniform(0.4, 1.0) * (i % 9 == 0 ? 2.0 : 1.0);
+    const double size_m = rng.Uniform(0.004, 0.02) * (i % 9 == 0 ? 2.0 : 1.0);
     const int length = std::max(2, static_cast<int>(size_m * texels_per_m));
-    const cv::Scalar color = RandomColor(rng, rng.Uniform(0.2, 0.85), rng.Uniform(0.1, 1.0));
+    const cv::Scalar color = Shift(ground, rng.Uniform(-75.0, 85.0));
     const int petals = RandomInt(rng, 1, 6);
     const double turn_deg = rng.Uniform(0.0, 360.0);
     for (int p = 0; p < petals; ++p) {  // one petal is a leaf, several are a flower
@@ -73,11 +73,39 @@ cv::Mat PaintRichFabric(cv::Size size, double texels_per_m, Rng rng) {
       const cv::Point centre = at + cv::Point(static_cast<int>(0.8 * length * std::cos(angle_rad)),
                                               static_cast<int>(0.8 * length * std::sin(angle_rad)));
       cv::ellipse(image, centre, {length, std::max(1, length / 3)}, angle_deg, 0.0, 360.0,
-                  Shift(color, rng.Uniform(-18.0, 18.0)), cv::FILLED, cv::LINE_AA);
+                  Shift(color, rng.Uniform(-12.0, 12.0)), cv::FILLED, cv::LINE_AA);
     }
-    cv::circle(image, at, std::max(1, length / 3), Shift(color, rng.Uniform(-90.0, 90.0)),
+    cv::circle(image, at, std::max(1, length / 3), Shift(color, rng.Uniform(-60.0, 60.0)),
                cv::FILLED, cv::LINE_AA);
   }
+  return image;
+}
+
+cv::Mat PaintLitScreen(cv::Size size, Rng rng) {
+  const cv::Scalar deep = RandomColor(rng, 0.6, 0.24);
+  cv::Mat image(size, CV_8UC3);
+  for (int y = 0; y < size.height; ++y)  // lighter towards the top, as screens at rest look
+    image.row(y).setTo(Shift(deep, 40.0 * (1.0 - static_cast<double>(y) / size.height)));
+  const auto part = [&](double x, double y, double width, double height) {
+    return cv::Rect(static_cast<int>(x * size.width), static_cast<int>(y * size.height),
+                    std::max(2, static_cast<int>(width * size.width)),
+                    std::max(2, static_cast<int>(height * size.height)));
+  };
+  for (int i = 0; i < 2; ++i) {  // two windows with text
+    const cv::Rect window = part(rng.Uniform(0.08, 0.2) + 0.4 * i, rng.Uniform(0.1, 0.3),
+                                 rng.Uniform(0.3, 0.38), rng.Uniform(0.35, 0.5));
+    cv::rectangle(image, window, Shift(deep, i == 0 ? 14.0 : 95.0), cv::FILLED);
+    cv::rectangle(image, {window.x, window.y, window.width, std::max(2, window.height / 12)},
+                  Shift(deep, 70.0), cv::FILLED);
+    const cv::Rect text(window.x + window.width / 12, window.y + window.height / 6,
+                        5 * window.width / 6, 3 * window.height / 4);
+    image = WithText(
+        image, {text, std::max(5.0, text.height / 11.0), Shift(deep, 150.0 - 190.0 * i)}, rng);
+  }
+  cv::rectangle(image, part(0.0, 0.94, 1.0, 0.06), Shift(deep, -30.0), cv::FILLED);
+  for (int i = 0; i < 7; ++i)  // icons
+    cv::rectangle(image, part(0.01 + 0.04 * i, 0.95, 0.025, 0.04), RandomColor(rng, 0.5, 0.7),
+                  cv::FILLED);
   return image;
 }
 

@@ -46,9 +46,12 @@ class PropBrush {
   Rng rng_;
 };
 
-// An irregular, rich pattern for upholstery: flowers, leaves and blots of many sizes and strong
-// contrast, with no regular lattice. CV_8UC3.
+// An irregular, rich pattern for upholstery: flowers, leaves and blots of many sizes, with no
+// regular lattice. CV_8UC3.
 cv::Mat PaintRichFabric(cv::Size size, double texels_per_m, Rng rng);
+
+// What a screen shows: a dark desktop with two windows. CV_8UC3.
+cv::Mat PaintLitScreen(cv::Size size, Rng rng);
 
 using PropShape = std::function<void(MeshBuilder&)>;
 

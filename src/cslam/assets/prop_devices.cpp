@@ -39,14 +39,14 @@ PropShape ScreenOnFootShape(PropKind kind, double foot_height_m, int screen, int
 PropShape MonitorShape(PropBrush& brush) {
   const int dark = brush.Plain({44, 42, 42});
   const int screen =
-      brush.Picture(PaintScreen(brush.Texels(0.5, 0.3), brush.NextRng()), kScreenEmission);
+      brush.Picture(PaintLitScreen(brush.Texels(0.5, 0.3), brush.NextRng()), kScreenEmission);
   return ScreenOnFootShape(PropKind::kMonitor, 0.14, screen, dark);
 }
 
 PropShape TelevisionShape(PropBrush& brush) {
   const int dark = brush.Plain({36, 34, 34});
   const int screen =
-      brush.Picture(PaintPhoto(brush.Texels(1.0, 0.6), brush.NextRng()), kScreenEmission);
+      brush.Picture(PaintLitScreen(brush.Texels(1.0, 0.6), brush.NextRng()), kScreenEmission);
   return ScreenOnFootShape(PropKind::kTelevision, 0.09, screen, dark);
 }
 
@@ -56,7 +56,7 @@ PropShape LaptopShape(PropBrush& brush) {
   const int keys =
       brush.Picture(PaintKeyboard(brush.Texels(size_m.x() - 0.04, 0.13), brush.NextRng()));
   const int screen = brush.Picture(
-      PaintScreen(brush.Texels(size_m.x() - 0.02, 0.2), brush.NextRng()), kScreenEmission);
+      PaintLitScreen(brush.Texels(size_m.x() - 0.02, 0.2), brush.NextRng()), kScreenEmission);
   return [=](MeshBuilder& mesh) {
     constexpr double kBaseM = 0.018;
     constexpr double kBaseDepthM = 0.24;
