@@ -109,10 +109,6 @@ class MeshBuilder {
 // T_world_object of something that stands at (x, y, z) (m), turned by yaw_rad about the vertical.
 Se3 Standing(double x, double y, double z, double yaw_rad = 0.0);
 
-// Cuts edges longer than max_edge_m (m) in halves until none is left; normals and uvs are
-// interpolated, short edges stay as they are, neighbours still meet. New vertices come last.
-Mesh SubdivideLongEdges(Mesh mesh, double max_edge_m);
-
 // Sanity of indices and array lengths; throws InternalError that names the object.
 void CheckScene(const Scene& scene);
 
