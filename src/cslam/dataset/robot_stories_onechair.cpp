@@ -8,18 +8,18 @@ namespace {
 
 // In the middle of a wall so long that its corners stay out of the pictures of the chair: the same
 // plain wall and rug are all that is seen behind it in either place.
-constexpr double kRoomLengthM = 8.0;
+constexpr double kRoomLengthM = 8.6;
 constexpr double kRoomWidthM = 6.5;
 constexpr double kMoveM = 1.5;
-const Eigen::Vector2d kFirstM(3.25, 5.75);
+const Eigen::Vector2d kFirstM(3.55, 5.75);
 const Eigen::Vector2d kSecondM = kFirstM + Eigen::Vector2d(kMoveM, 0.0);
 constexpr double kRugM = 0.012;  // what it stands on
 
 // Where the arcs begin, relative to the chair, and their ends.
-constexpr double kNearM = 1.2;
-constexpr double kFarM = 1.6;
-constexpr double kHalfArcDeg = 40.0;
-const Eigen::Vector2d kBeforeChairM(0.0, -1.4);
+constexpr double kNearM = 1.3;
+constexpr double kFarM = 1.65;
+constexpr double kHalfArcDeg = 36.0;
+const Eigen::Vector2d kBeforeChairM(0.0, -1.5);
 
 // Looks at the chair from the left, the middle and the right, from afar and from near.
 void LookAround(RobotPlan& plan, const Eigen::Vector2d& chair_m) {
@@ -30,7 +30,7 @@ void LookAround(RobotPlan& plan, const Eigen::Vector2d& chair_m) {
   plan.Stand(4.0);
   plan.Orbit(chair_m, kHalfArcDeg, kFarM);
   plan.Stand(4.0);
-  plan.Orbit(chair_m, -kHalfArcDeg, 1.4);
+  plan.Orbit(chair_m, -kHalfArcDeg, 1.5);
   plan.Stand(3.0);
 }
 
@@ -41,24 +41,24 @@ RobotRide LongRide(std::uint64_t seed) {
   plan.Turn(180.0);  // the rest of the room, with the back to the chair
   plan.Stand(3.0);
   plan.Scan(80.0, 2);
-  plan.Ride({{3.0, 3.2}, {3.4, 2.2}});
+  plan.Ride({{3.3, 3.2}, {3.6, 2.2}});
   plan.Stand(3.0);
   plan.Scan(85.0, 2);
   plan.StandForChange(10.0);
   plan.Scan(85.0, 2);
-  plan.Ride({{4.2, 1.8}, {5.0, 2.2}});
+  plan.Ride({{4.4, 1.8}, {5.2, 2.2}});
   plan.Stand(3.0);
   plan.Scan(85.0, 2);
-  plan.Ride({{5.0, 3.2}, kSecondM + kBeforeChairM});
+  plan.Ride({{5.3, 3.2}, kSecondM + kBeforeChairM});
   plan.Turn(180.0);
   LookAround(plan, kSecondM);
-  plan.Ride({{4.4, 3.6}, {4.0, 2.9}});
+  plan.Ride({{4.7, 3.5}, {4.3, 2.7}});
   plan.Face(kFirstM);
   plan.Stand(4.0);
   plan.Face(kSecondM);
   plan.Stand(4.0);
   plan.Turn(360.0);
-  plan.Ride({{3.4, 2.5}, {3.4, 3.4}});
+  plan.Ride({{3.6, 2.5}, {3.5, 3.4}});
   plan.Turn(-360.0);
   plan.Stand(3.0);
   return plan.Finish(kOneChairFigures.duration_s);
@@ -66,9 +66,9 @@ RobotRide LongRide(std::uint64_t seed) {
 
 void GlanceAround(RobotPlan& plan, const Eigen::Vector2d& chair_m) {
   plan.Stand(1.0);
-  plan.Orbit(chair_m, kHalfArcDeg, 1.4);
+  plan.Orbit(chair_m, kHalfArcDeg, kFarM);
   plan.Stand(1.0);
-  plan.Orbit(chair_m, -2.0 * kHalfArcDeg, 1.4);
+  plan.Orbit(chair_m, -2.0 * kHalfArcDeg, 1.5);
   plan.Stand(1.0);
 }
 
@@ -76,14 +76,12 @@ RobotRide ShortRide(std::uint64_t seed) {
   RobotPlan plan(kFirstM + kBeforeChairM, 90.0,
                  {.speed_mps = 0.45, .turn_dps = 58.0, .ramp_s = 0.5, .place_noise_m = 0.02}, seed);
   GlanceAround(plan, kFirstM);
-  plan.Face({3.6, 1.0});
-  plan.Ride({{3.2, 3.6}});
+  plan.RideAndFace({{3.5, 3.6}}, {3.9, 1.0});
   plan.StandForChange(1.0);
-  plan.Scan(35.0, 1);
-  plan.Ride({{3.9, 3.6}, kSecondM + kBeforeChairM});
-  plan.Face(kSecondM);
+  plan.Scan(30.0, 1);
+  plan.RideAndFace({{4.4, 3.5}, kSecondM + kBeforeChairM}, kSecondM);
   GlanceAround(plan, kSecondM);
-  plan.Face(kFirstM + Eigen::Vector2d(0.2, 0.0));
+  plan.RideAndFace({{4.2, 3.6}}, 0.5 * (kFirstM + kSecondM));
   plan.Stand(2.5);
   return plan.Finish(kOneChairFigures.short_duration_s);
 }

@@ -30,7 +30,7 @@ RobotRide LongRide(std::uint64_t seed) {
   plan.Stand(2.0);
   plan.Turn(480.0);
   plan.StandForChange(3.0);  // the chair with the bear becomes an umbrella
-  plan.RideAndFace({{3.2, 1.5}}, kMiddleM, -1);
+  plan.RideAndFace({{3.3, 1.6}}, kMiddleM, -1);
   plan.Stand(2.0);
   plan.RideAndFace({{2.6, 2.3}}, kBearChairM, -1);
   plan.Stand(3.0);
@@ -38,7 +38,7 @@ RobotRide LongRide(std::uint64_t seed) {
   plan.RideAndFace({{3.2, 2.2}, {4.4, 2.4}}, kBookChairM, 1);
   plan.Stand(3.0);
   plan.Turn(360.0);
-  plan.RideAndFace({{4.0, 1.6}, {3.2, 1.4}}, {0.6, 0.9}, 2);
+  plan.RideAndFace({{3.4, 1.8}}, {0.6, 0.9}, 2);
   plan.StandForChange(3.0);  // the other chair goes
   plan.Turn(720.0);
   plan.RideAndFace({{3.4, 2.0}, {4.2, 2.3}}, kBookChairM, 2);

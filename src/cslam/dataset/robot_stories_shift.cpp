@@ -51,7 +51,7 @@ RobotRide LongRide(std::uint64_t seed) {
   plan.Stand(4.0);
   plan.Ride({{4.2, 2.8}, {4.3, 2.0}, {3.6, 1.6}}, 360.0);
   plan.Turn(360.0);
-  plan.Ride({{2.8, 1.6}, kOverviewM}, 180.0);
+  plan.Ride({{3.0, 1.9}, {2.7, 1.5}, kOverviewM}, 180.0);
   plan.Face({5.6, 0.6});
   plan.Scan(20.0, 2);
   plan.StandForChange(8.0);  // suitcase, monitor and mug move

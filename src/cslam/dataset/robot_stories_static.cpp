@@ -8,7 +8,7 @@ namespace {
 
 const Eigen::Vector2d kChairM(2.3, 4.6);
 const Eigen::Vector2d kUmbrellaM(4.7, 4.6);
-const Eigen::Vector2d kSuitcaseM(5.8, 2.6);
+const Eigen::Vector2d kSuitcaseM(5.8, 3.7);
 const Eigen::Vector2d kPlantM(1.3, 1.4);
 
 RobotRide LongRide(std::uint64_t seed) {

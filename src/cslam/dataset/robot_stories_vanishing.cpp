@@ -7,10 +7,10 @@ namespace cslam {
 namespace {
 
 const Eigen::Vector2d kChairM(2.6, 4.7);
-const Eigen::Vector2d kChairLaterM(4.2, 4.5);
-const Eigen::Vector2d kUmbrellaM(4.8, 4.7);
-const Eigen::Vector2d kUmbrellaLaterM(1.9, 4.5);
-const Eigen::Vector2d kSuitcaseM(3.5, 4.8);
+const Eigen::Vector2d kChairLaterM(4.0, 4.4);
+const Eigen::Vector2d kUmbrellaM(4.55, 4.8);
+const Eigen::Vector2d kUmbrellaLaterM(2.15, 4.4);
+const Eigen::Vector2d kSuitcaseM(3.35, 4.8);
 // From here all of it is in the picture.
 const Eigen::Vector2d kOverviewM(3.35, 1.2);
 const Eigen::Vector2d kMiddleM(3.35, 4.6);

@@ -54,12 +54,12 @@ class LabWalls {
 
   void North() {
     room_.AgainstWall(PropKind::kBookcase, Wall::kNorth, At(Wall::kNorth, 0.10));
-    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.28), 0.75, 0.95);
-    Topped(PropKind::kCabinet, Wall::kNorth, 0.46, PropKind::kBooks);
+    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.28), 0.8, 0.95);
+    Topped(PropKind::kCabinet, Wall::kNorth, 0.46, PropKind::kBackpack);
     room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.60), 0.9, 0.8);
-    room_.AgainstWall(PropKind::kBookcase, Wall::kNorth, At(Wall::kNorth, 0.74));
-    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.87), 1.0, 0.7);
-    room_.AgainstWall(PropKind::kCarton, Wall::kNorth, At(Wall::kNorth, 0.93), 0.2);
+    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.73), 0.7, 0.8);
+    room_.AgainstWall(PropKind::kBookcase, Wall::kNorth, At(Wall::kNorth, 0.86));
+    room_.AgainstWall(PropKind::kCarton, Wall::kNorth, At(Wall::kNorth, 0.96), 0.2);
   }
 
   void East() {
@@ -73,12 +73,12 @@ class LabWalls {
 
   void South() {
     room_.Door(Wall::kSouth, At(Wall::kSouth, 0.10));
-    Topped(PropKind::kDesk, Wall::kSouth, 0.32, PropKind::kBooks);
+    Topped(PropKind::kDesk, Wall::kSouth, 0.32, PropKind::kBackpack);
     room_.AgainstWall(PropKind::kCarton, Wall::kSouth, At(Wall::kSouth, 0.32), 0.2);
     room_.Hang(Wall::kSouth, At(Wall::kSouth, 0.32), 1.1, 1.0);
     room_.AgainstWall(PropKind::kBookcase, Wall::kSouth, At(Wall::kSouth, 0.54));
     room_.Hang(Wall::kSouth, At(Wall::kSouth, 0.69), 0.6, 0.9);
-    Topped(PropKind::kCabinet, Wall::kSouth, 0.83, PropKind::kBooks);
+    Topped(PropKind::kCabinet, Wall::kSouth, 0.83, PropKind::kCarton);
     room_.AgainstWall(PropKind::kCarton, Wall::kSouth, At(Wall::kSouth, 0.95), 0.4);
   }
 

@@ -88,8 +88,8 @@ class RoomDecorator {
 };
 
 // A living laboratory for the robot: every wall has furniture and pictures, the middle is free (at
-// least 1.1 m from each wall). Nothing in it has a class that a story changes, but for what the
-// story adds itself.
+// least 1.1 m from each wall). It has no thing of the classes that the robot's stories
+// change, but for the books in its bookcases.
 struct LabOptions {
   std::uint64_t seed = 1;
   Eigen::Vector2d size_m = {7.0, 6.0};  // at least 6 x 5
