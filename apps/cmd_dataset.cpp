@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cmd_dataset.h"
 
-#include "cslam/io/dataset_check.h"
+#include "cslam/dataset/sequence_check.h"
 #include "cslam/io/dataset_info.h"
 #include "cslam/util/text_table.h"
 
@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "check_text.h"
 #include "cli_common.h"
 #include "cmd_render.h"
 #include "exit_codes.h"
@@ -153,42 +154,9 @@ int RunInfo(const DatasetArguments& arguments) {
   return kExitOk;
 }
 
-std::string FormatCheck(const DatasetCheck& check) {
-  std::string text;
-  for (const std::string& error : check.errors)
-    text += fmt::format("error    {}\n", error);
-  for (const std::string& warning : check.warnings)
-    text += fmt::format("warning  {}\n", warning);
-  text += fmt::format(
-      "{} of {} frames looked at; {} missing, {} unreadable, {} of wrong size, {} "
-      "without depth; depth in {} of the pixels, median {:.2f} m\n",
-      check.num_checked, check.num_frames, check.num_missing, check.num_unreadable,
-      check.num_wrong_size, check.num_without_depth, Percent(check.depth_valid_share),
-      check.median_depth_m);
-  const char* verdict = !check.errors.empty()    ? "not sound"
-                        : check.warnings.empty() ? "sound"
-                                                 : "sound, with warnings";
-  return text + verdict + "\n";
-}
-
-std::string FormatCheckJson(const DatasetCheck& check) {
-  const Json json{{"ok", check.errors.empty()},
-                  {"errors", check.errors},
-                  {"warnings", check.warnings},
-                  {"frames", check.num_frames},
-                  {"checked_frames", check.num_checked},
-                  {"missing", check.num_missing},
-                  {"unreadable", check.num_unreadable},
-                  {"wrong_size", check.num_wrong_size},
-                  {"without_depth", check.num_without_depth},
-                  {"depth_valid_share", check.depth_valid_share},
-                  {"median_depth_m", check.median_depth_m}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 int RunCheck(const DatasetArguments& arguments) {
-  const DatasetCheck check =
-      CheckDataset(arguments.folder, arguments.camera, arguments.num_samples);
+  const SequenceCheck check = CheckSequence(
+      arguments.folder, {.camera = arguments.camera, .num_samples = arguments.num_samples});
   fmt::print("{}", arguments.as_json ? FormatCheckJson(check) : FormatCheck(check));
   return check.errors.empty() ? kExitOk : kExitRuntimeError;
 }
@@ -226,9 +194,11 @@ CLI::App* AddDatasetCommand(CLI::App& root, int& exit_code) {
   info->callback([info_arguments, &exit_code] { exit_code = RunInfo(*info_arguments); });
 
   CLI::App* const check = app->add_subcommand(
-      "check", "Decode everything and list what is wrong; exit code 1 if something is");
-  const auto check_arguments =
-      AddArguments(*check, "Decode only so many frames, evenly spread; all unless told");
+      "check",
+      "Look at files, depth against poses, truth files and story, and list what is "
+      "wrong; exit code 1 if something is");
+  const auto check_arguments = AddArguments(
+      *check, "Look at the images of so many frames only, evenly spread; all unless told");
   AddExamples(*check, {"dataset check ~/data/rgbd_dataset_freiburg1_desk",
                        "dataset check my_recording --camera d435i --sample 50"});
   check->callback([check_arguments, &exit_code] { exit_code = RunCheck(*check_arguments); });

@@ -34,22 +34,23 @@ struct View {
   std::size_t frame = 0;
   double time_s = 0.0;
   Se3 T_world_camera;
-  cv::Mat depth_m;
+  cv::Mat inverse_depth;
   cv::Mat instances;  // empty if there are none
 };
 
 std::optional<View> LoadView(const CheckFrames& frames, std::size_t i, const TrueObjects* objects) {
   const std::optional<Se3> pose = frames.T_world_camera(i);
   if (!pose) return std::nullopt;
+  const cv::Mat depth_m = frames.DepthM(i);
+  if (depth_m.empty()) return std::nullopt;
   View view{.frame = i,
             .time_s = objects != nullptr ? TimeOf(*objects, frames.stamp(i)) : 0.0,
             .T_world_camera = *pose,
-            .depth_m = frames.DepthM(i),
+            .inverse_depth = InverseDepth(depth_m),
             .instances = {}};
-  if (view.depth_m.empty()) return std::nullopt;
   if (frames.has_instances()) {
     view.instances = frames.Instances(i);
-    if (view.instances.size() != view.depth_m.size()) return std::nullopt;
+    if (view.instances.size() != depth_m.size()) return std::nullopt;
   }
   return view;
 }
@@ -130,8 +131,9 @@ class PairComparison {
 
   void ComparePixel(const View& a, const View& b, const Se3& T_b_a, int x, int y,
                     Differences& differences) const {
-    if (!patches_.IsFlat(a.depth_m, x, y)) return;
-    const Eigen::Vector3d p_a = patches_.Ray(x, y) * static_cast<double>(a.depth_m.at<float>(y, x));
+    if (!patches_.IsFlat(a.inverse_depth, x, y)) return;
+    const Eigen::Vector3d p_a =
+        patches_.Ray(x, y) / static_cast<double>(a.inverse_depth.at<float>(y, x));
     const Eigen::Vector3d p_b = T_b_a * p_a;
     const std::optional<Eigen::Vector2d> uv = patches_.RawPixel(p_b);
     if (!uv) return;
@@ -142,7 +144,7 @@ class PairComparison {
                                std::pair(left, top + 1), std::pair(left + 1, top + 1)}) {
       if (InstanceAt(b, u, v) != instance) return;
     }
-    const std::optional<double> z_b_m = patches_.DepthAt(b.depth_m, *uv);
+    const std::optional<double> z_b_m = patches_.DepthAt(b.inverse_depth, *uv);
     if (!z_b_m) return;
     const double difference_m = *z_b_m - p_b.z();
     const double tolerance_m = tolerance_.At(std::max(*z_b_m, p_b.z()));

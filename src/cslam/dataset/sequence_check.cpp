@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t kAnchors = 40;         // frames whose depth is compared with others'
 constexpr double kMaxPiercedShare = 0.01;    // of a rendered sequence's points
 constexpr double kMaxPairPierced = 0.05;     // of one pair
-constexpr double kMaxRelativeMedian = 0.05;  // of a recording: poses and depth do not fit beyond
+constexpr double kMaxRelativeMedian = 0.02;  // of a recording's depth; true ones stay below 0.01
+constexpr double kMaxOccluded = 0.5;         // share of hidden or pierced points of a recording
 
 // What 95 % of the readings of a sensor keep to; the noise of two frames adds up in a comparison.
 DepthTolerance ToleranceOf(SensorNoise noise) {
@@ -158,11 +159,13 @@ class SequenceChecker {
   }
 
   void JudgeRecording(const ReprojectionFigures& all) {
-    if (all.median_relative <= kMaxRelativeMedian) return;
+    const double occluded_share = all.hidden_share + all.pierced_share;
+    if (all.median_relative <= kMaxRelativeMedian && occluded_share <= kMaxOccluded) return;
     check_.warnings.push_back(fmt::format(
-        "depth and the poses of {} disagree by {:.1f} % of the depth (median): is the depth scale "
-        "right, and are the poses those of the camera?",
-        check_.pose_file, 100.0 * all.median_relative));
+        "depth and the poses of {} disagree by {:.1f} % of the depth (median), {:.0f} % of the "
+        "points are hidden or looked through: is the depth scale right, and are the poses those "
+        "of the camera?",
+        check_.pose_file, 100.0 * all.median_relative, 100.0 * occluded_share));
   }
 
   void CheckTruthFiles(const FolderFrames& frames) {

@@ -17,8 +17,8 @@
 namespace cslam {
 
 struct SequenceCheckOptions {
-  CameraChoice camera;
-  std::optional<std::size_t> num_samples;  // frames to decode; all unless told
+  CameraChoice camera = {};
+  std::optional<std::size_t> num_samples = {};  // frames to decode; all unless told
 };
 
 // What `changing-slam dataset check` found. Errors make a sequence unfit for use, warnings are

@@ -12,36 +12,33 @@ constexpr double kMinDepthM = 0.05;  // nearer points are not projected
 
 struct PlaneFit {
   Eigen::Vector3d inverse_depth = Eigen::Vector3d::Zero();  // per px in u, per px in v, at centre
-  double max_error_m = 0.0;
+  double max_error = 0.0;                                   // 1/m
 };
 
-// Least squares of inverse depth over the square around a pixel; nothing if a reading is missing.
-std::optional<PlaneFit> FitPlane(const cv::Mat& depth_m, int x, int y, int window_px) {
+// Least squares over the square around a pixel; nothing if a reading is missing.
+std::optional<PlaneFit> FitPlane(const cv::Mat& inverse_depth, int x, int y, int window_px) {
   double sum = 0.0;
   double sum_u = 0.0;
   double sum_v = 0.0;
   double norm = 0.0;
   for (int v = -window_px; v <= window_px; ++v) {
-    const auto* row = depth_m.ptr<float>(y + v);
+    const auto* row = inverse_depth.ptr<float>(y + v);
     for (int u = -window_px; u <= window_px; ++u) {
-      const auto z_m = static_cast<double>(row[x + u]);
-      if (!(z_m > 0.0)) return std::nullopt;
-      sum += 1.0 / z_m;
-      sum_u += u / z_m;
-      sum_v += v / z_m;
+      const auto inverse = static_cast<double>(row[x + u]);
+      if (inverse == 0.0) return std::nullopt;
+      sum += inverse;
+      sum_u += u * inverse;
+      sum_v += v * inverse;
       norm += u * u;
     }
   }
   const int side = 2 * window_px + 1;
-  PlaneFit fit{.inverse_depth = {sum_u / norm, sum_v / norm, sum / (side * side)},
-               .max_error_m = 0};
+  PlaneFit fit{.inverse_depth = {sum_u / norm, sum_v / norm, sum / (side * side)}, .max_error = 0};
   for (int v = -window_px; v <= window_px; ++v) {
-    const auto* row = depth_m.ptr<float>(y + v);
+    const auto* row = inverse_depth.ptr<float>(y + v);
     for (int u = -window_px; u <= window_px; ++u) {
-      const double inverse = fit.inverse_depth.dot(Eigen::Vector3d(u, v, 1.0));
-      if (!(inverse > 0.0)) return std::nullopt;
-      fit.max_error_m =
-          std::max(fit.max_error_m, std::abs(1.0 / inverse - static_cast<double>(row[x + u])));
+      const double fitted = fit.inverse_depth.dot(Eigen::Vector3d(u, v, 1.0));
+      fit.max_error = std::max(fit.max_error, std::abs(fitted - static_cast<double>(row[x + u])));
     }
   }
   return fit;
@@ -61,17 +58,27 @@ SurfacePatches::SurfacePatches(const Camera& camera, const SurfacePatchOptions& 
   }
 }
 
-bool SurfacePatches::IsFlat(const cv::Mat& depth_m, int x, int y) const {
+cv::Mat InverseDepth(const cv::Mat& depth_m) {
+  cv::Mat inverse(depth_m.rows, depth_m.cols, CV_32FC1);
+  for (int y = 0; y < depth_m.rows; ++y) {
+    const auto* from = depth_m.ptr<float>(y);
+    auto* to = inverse.ptr<float>(y);
+    for (int x = 0; x < depth_m.cols; ++x)
+      to[x] = from[x] > 0.0F ? 1.0F / from[x] : 0.0F;
+  }
+  return inverse;
+}
+
+bool SurfacePatches::IsFlat(const cv::Mat& inverse_depth, int x, int y) const {
   const int window_px = options_.window_px;
-  if (x < window_px || y < window_px || x + window_px >= depth_m.cols ||
-      y + window_px >= depth_m.rows) {
+  if (x < window_px || y < window_px || x + window_px >= inverse_depth.cols ||
+      y + window_px >= inverse_depth.rows) {
     return false;
   }
-  const std::optional<PlaneFit> fit = FitPlane(depth_m, x, y, window_px);
+  const std::optional<PlaneFit> fit = FitPlane(inverse_depth, x, y, window_px);
   if (!fit) return false;
-  if (fit->max_error_m > options_.tolerance.At(static_cast<double>(depth_m.at<float>(y, x)))) {
-    return false;
-  }
+  const double z_m = 1.0 / static_cast<double>(inverse_depth.at<float>(y, x));
+  if (fit->max_error * z_m * z_m > options_.tolerance.At(z_m)) return false;
   // The plane n . p = 1 has 1 / z = n . (p / z): its normal from the change of inverse depth.
   const Eigen::Vector3d& ray = Ray(x, y);
   const double a = fit->inverse_depth.x() * camera_.fx;
@@ -95,7 +102,7 @@ std::optional<Eigen::Vector2d> SurfacePatches::RawPixel(const Eigen::Vector3d& p
   return uv;
 }
 
-std::optional<double> SurfacePatches::DepthAt(const cv::Mat& depth_m,
+std::optional<double> SurfacePatches::DepthAt(const cv::Mat& inverse_depth,
                                               const Eigen::Vector2d& uv_px) const {
   const auto x = static_cast<int>(std::floor(uv_px.x()));
   const auto y = static_cast<int>(std::floor(uv_px.y()));
@@ -104,9 +111,9 @@ std::optional<double> SurfacePatches::DepthAt(const cv::Mat& depth_m,
   double inverse = 0.0;
   for (int v = 0; v <= 1; ++v) {
     for (int u = 0; u <= 1; ++u) {
-      if (!IsFlat(depth_m, x + u, y + v)) return std::nullopt;
+      if (!IsFlat(inverse_depth, x + u, y + v)) return std::nullopt;
       const double weight = (u == 0 ? 1.0 - du : du) * (v == 0 ? 1.0 - dv : dv);
-      inverse += weight / static_cast<double>(depth_m.at<float>(y + v, x + u));
+      inverse += weight * static_cast<double>(inverse_depth.at<float>(y + v, x + u));
     }
   }
   return 1.0 / inverse;

@@ -19,7 +19,10 @@ struct SurfacePatchOptions {
   DepthTolerance tolerance;  // largest distance from the fitted plane
 };
 
-// Reads depth images where they show flat, well-seen surfaces: there inverse depth is linear in
+// H x W, CV_32FC1, 1/m; 0 where there is no reading.
+cv::Mat InverseDepth(const cv::Mat& depth_m);
+
+// Reads images of inverse depth where they show flat, well-seen surfaces: there it is linear in
 // the pixel, and can be interpolated. Knows the ray of every pixel, lens distortion included.
 class SurfacePatches {
  public:
@@ -32,13 +35,13 @@ class SurfacePatches {
   }
 
   // Whether all readings around the pixel lie on one plane, which is not seen too flat.
-  bool IsFlat(const cv::Mat& depth_m, int x, int y) const;
+  bool IsFlat(const cv::Mat& inverse_depth, int x, int y) const;
 
   // Where a point in the camera frame is seen in the image as it is, with a neighbour on each side.
   std::optional<Eigen::Vector2d> RawPixel(const Eigen::Vector3d& p_camera) const;
 
   // Depth (m) between four pixels that are flat.
-  std::optional<double> DepthAt(const cv::Mat& depth_m, const Eigen::Vector2d& uv_px) const;
+  std::optional<double> DepthAt(const cv::Mat& inverse_depth, const Eigen::Vector2d& uv_px) const;
 
  private:
   Camera camera_;

@@ -19,6 +19,7 @@ constexpr std::size_t kMaxListed = 5;           // of one kind of finding
 constexpr double kLargePairDifferenceS = 0.02;  // colour and depth would not be associated
 constexpr double kMinPlausibleDepthM = 0.2;     // medians beyond these two speak of a
 constexpr double kMaxPlausibleDepthM = 10.0;    // wrong depth scale
+constexpr double kPauseIntervals = 1.5;         // times the usual interval
 constexpr double kShortTruthShare = 0.999;      // of frames with ground truth
 
 // Appends the first few of a series and how many there are besides.
@@ -30,9 +31,21 @@ void AppendSeries(std::vector<std::string>& to, const std::vector<std::string>& 
     to.push_back(fmt::format("... and {} more {}", series.size() - count, what));
 }
 
+// A slow camera's usual interval is no pause.
+double LongGapS(const std::vector<TumPair>& pairs) {
+  if (pairs.size() < 2) return kLongGapS;
+  std::vector<double> intervals_s;
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    intervals_s.push_back(SecondsBetween(pairs[i].color_stamp, pairs[i - 1].color_stamp));
+  const auto middle =
+      intervals_s.begin() + static_cast<std::ptrdiff_t>((intervals_s.size() - 1) / 2);
+  std::nth_element(intervals_s.begin(), middle, intervals_s.end());
+  return std::max(kLongGapS, kPauseIntervals * *middle);
+}
+
 void CheckTimes(DatasetCheck& check, const TumIndex& index) {
   std::vector<std::string> gaps;
-  for (const FrameGap& gap : FindGaps(index.pairs)) {
+  for (const FrameGap& gap : FindGaps(index.pairs, LongGapS(index.pairs))) {
     gaps.push_back(fmt::format("{:.3f} s without a frame after frame {}", gap.length_s, gap.frame));
   }
   AppendSeries(check.warnings, gaps, "pauses");

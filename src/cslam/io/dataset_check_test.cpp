@@ -83,6 +83,15 @@ TEST(CheckDataset, WarnsOfTimesThatLookWrong) {
                   "frame 2: its depth image is also that of the frame before"));
 }
 
+TEST(CheckDataset, DoesNotTakeASlowRateForPauses) {
+  const TestSequence sequence(4);
+  sequence.folder().Write("associations.txt",
+                          "0.0 rgb/0.png 0.0 depth/0.png\n0.5 rgb/1.png 0.5 depth/1.png\n"
+                          "1.0 rgb/2.png 1.0 depth/2.png\n2.0 rgb/3.png 2.0 depth/3.png\n");
+  EXPECT_THAT(CheckDataset(sequence.path(), {}).warnings,
+              ElementsAre("1.000 s without a frame after frame 2"));
+}
+
 TEST(CheckDataset, WarnsOfImagesWithoutPartner) {
   const TestSequence sequence(3);
   std::filesystem::remove(sequence.path() / "associations.txt");
