@@ -144,8 +144,8 @@ void Describe(OptionList& list, RegionOptions& o) {
            "How far a region may leave its box, as share of the box's size.");
   list.Add("carry_tolerance", o.carry_tolerance_m, {0.01, 1.0}, "m",
            "How far the depth may be off where a region is carried to.");
-  list.Add("carry_margin", o.carry_margin_px, {0.0, 200.0}, "px",
-           "How far a carried region may grow beyond where it was expected.");
+  list.Add("carry_speed", o.carry_speed_mps, {0.0, 20.0}, "m/s",
+           "How fast a person's or mover's limbs may leave the region that is carried on.");
   list.Add("min_support", o.min_support, {0.0, 1.0}, "",
            "Share of a carried region whose depth must agree for it to be kept.");
 }
@@ -224,8 +224,8 @@ DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person,
 }
 
 DepthRegion CarryRegion(const DepthView& from, const DepthRegion& region, const DepthView& to,
-                        const Se3& T_to_from, const Eigen::Vector3d& shift_m, bool is_person,
-                        const RegionOptions& options) {
+                        const Se3& T_to_from, const Eigen::Vector3d& shift_m, double margin_px,
+                        bool is_person, const RegionOptions& options) {
   if (region.empty() || from.empty() || to.empty()) return {};
   cv::Mat expected = cv::Mat::zeros(to.depth_mm.size(), CV_32FC1);  // m; 0: not covered
   const Eigen::Matrix3d R = T_to_from.R();
@@ -267,7 +267,7 @@ DepthRegion CarryRegion(const DepthView& from, const DepthRegion& region, const 
   if (num_agreeing < kMinPixels) return {};
   const double support = static_cast<double>(num_agreeing) / num_expected;
   if (support < options.min_support) return {};
-  const int margin = 1 + static_cast<int>(options.carry_margin_px / to.step);
+  const int margin = static_cast<int>(std::ceil(margin_px / to.step));
   cv::Mat allowed;
   cv::dilate(covered, allowed, cv::Mat::ones(2 * margin + 1, 2 * margin + 1, CV_8UC1));
   DepthRegion carried =

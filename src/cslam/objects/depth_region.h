@@ -50,7 +50,7 @@ struct RegionOptions {
   double step_ratio = 0.03;       // depth step, as share of the depth, that parts two surfaces
   double box_margin = 0.08;       // how far a region may leave its box, as share of its size
   double carry_tolerance_m = 0.15;
-  double carry_margin_px = 24.0;
+  double carry_speed_mps = 1.5;
   double min_support = 0.25;
 };
 void Describe(OptionList& list, RegionOptions& options);
@@ -63,10 +63,11 @@ DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person,
 
 // Where a region of an earlier view is now: its points are moved by the camera's motion and the
 // thing's own shift (m, in the new camera's frame), those whose depth agrees are kept, and the
-// region is grown again over the surface they lie on. Empty if fewer than min_support agree.
+// region is grown again over the surface they lie on, up to margin_px beyond. Empty if fewer than
+// min_support agree.
 DepthRegion CarryRegion(const DepthView& from, const DepthRegion& region, const DepthView& to,
-                        const Se3& T_to_from, const Eigen::Vector3d& shift_m, bool is_person,
-                        const RegionOptions& options);
+                        const Se3& T_to_from, const Eigen::Vector3d& shift_m, double margin_px,
+                        bool is_person, const RegionOptions& options);
 
 // The connected surfaces in reach that contain seeds (CV_8UC1, non-zero): grown from pixel to
 // neighbour where depth is continuous, only where allowed (CV_8UC1 or empty: everywhere) and

@@ -67,7 +67,8 @@ TEST(CarryRegion, FollowsAPersonWhoWalksWhileTheCameraTurns) {
   const DepthRegion region = SegmentBox(from, box, true, {}, {});
   // 0.2 m by the camera's own motion, 0.1 m by walking.
   const Se3 T_to_from{Eigen::Quaterniond::Identity(), {0.2, 0.0, 0.0}};
-  const DepthRegion carried = CarryRegion(from, region, to, T_to_from, {0.1, 0.0, 0.0}, true, {});
+  const DepthRegion carried =
+      CarryRegion(from, region, to, T_to_from, {0.1, 0.0, 0.0}, 8.0, true, {});
   EXPECT_GT(Coverage(carried, now, to.step), 0.95);
   EXPECT_GT(carried.support, 0.9);
 }
@@ -80,7 +81,7 @@ TEST(CarryRegion, GrowsOverWhatTheStepUncoversWhenTheVelocityIsUnknown) {
   const DepthView from = ViewOf(before);
   const DepthView to = ViewOf(after);
   const DepthRegion carried = CarryRegion(from, SegmentBox(from, box, true, {}, {}), to, Se3(),
-                                          Eigen::Vector3d::Zero(), true, {});
+                                          Eigen::Vector3d::Zero(), 24.0, true, {});
   EXPECT_GT(Coverage(carried, now, to.step), 0.95);
 }
 
@@ -89,10 +90,12 @@ TEST(CarryRegion, IsEmptyWhenTheThingIsGone) {
   const Box box = DrawPanel(before, 0.0, 0.0, 2.0, 0.5, 1.2);
   const DepthView from = ViewOf(before);
   const DepthRegion region = SegmentBox(from, box, true, {}, {});
-  EXPECT_TRUE(CarryRegion(from, region, ViewOf(Wall(4.0)), Se3(), Eigen::Vector3d::Zero(), true, {})
-                  .empty());
-  EXPECT_TRUE(CarryRegion(from, region, ViewOf(Wall(0.0)), Se3(), Eigen::Vector3d::Zero(), true, {})
-                  .empty());
+  EXPECT_TRUE(
+      CarryRegion(from, region, ViewOf(Wall(4.0)), Se3(), Eigen::Vector3d::Zero(), 24.0, true, {})
+          .empty());
+  EXPECT_TRUE(
+      CarryRegion(from, region, ViewOf(Wall(0.0)), Se3(), Eigen::Vector3d::Zero(), 24.0, true, {})
+          .empty());
 }
 
 }  // namespace

@@ -12,33 +12,51 @@
 namespace cslam {
 namespace {
 
-// Marks the pixels of now whose surface stands in what `earlier` saw as free space. An opened gap
-// of one pixel on each side keeps edges out: of the nine readings around, the nearest counts.
-void MarkSeenThrough(const DepthView& now, const EarlierView& earlier,
-                     const MotionRegionOptions& options, cv::Mat moved) {
-  const DepthView& before = *earlier.view;
-  cv::Mat nearest;
-  cv::erode(before.depth_mm, nearest, cv::Mat::ones(3, 3, CV_8UC1));
-  const Eigen::Matrix3d R = earlier.T_earlier_now.R();
-  const Eigen::Vector3d& t = earlier.T_earlier_now.translation;
-  for (int v = 0; v < now.depth_mm.rows; ++v) {
-    auto* row = moved.ptr<std::uint8_t>(v);
-    for (int u = 0; u < now.depth_mm.cols; ++u) {
-      const float depth = now.DepthM(u, v);
-      if (depth <= 0.0F) continue;
-      const Eigen::Vector3d p = R * now.PointAt(u, v, static_cast<double>(depth)) + t;
-      if (p.z() <= 0.1) continue;
-      const int bu = static_cast<int>(
-          std::floor((before.camera.fx * p.x() / p.z() + before.camera.cx) / before.step));
-      const int bv = static_cast<int>(
-          std::floor((before.camera.fy * p.y() / p.z() + before.camera.cy) / before.step));
-      if (bu < 1 || bv < 1 || bu + 1 >= nearest.cols || bv + 1 >= nearest.rows) continue;
-      const double free_m = 0.001 * nearest.at<std::uint16_t>(bv, bu);
-      const double margin = options.margin_m + options.margin_per_m2 * p.z() * p.z();
-      if (free_m > p.z() + margin) row[u] = 255;
-    }
+enum class Seen { kNothing, kSame, kThrough };
+
+// Compares the pixels of now with an earlier view. An opened gap of one pixel on each side keeps
+// edges out: of the nine readings around, the nearest counts as how far that view could see.
+class Comparison {
+ public:
+  Comparison(const DepthView& now, const EarlierView& earlier, const MotionRegionOptions& options)
+      : now_(now),
+        before_(*earlier.view),
+        R_(earlier.T_earlier_now.R()),
+        t_(earlier.T_earlier_now.translation),
+        options_(options) {
+    cv::erode(before_.depth_mm, nearest_, cv::Mat::ones(3, 3, CV_8UC1));
+    cv::dilate(before_.depth_mm, farthest_, cv::Mat::ones(3, 3, CV_8UC1));
   }
-}
+
+  Seen At(int u, int v) const {
+    const float depth = now_.DepthM(u, v);
+    if (depth <= 0.0F) return Seen::kNothing;
+    const Eigen::Vector3d p = R_ * now_.PointAt(u, v, static_cast<double>(depth)) + t_;
+    if (p.z() <= 0.1) return Seen::kNothing;
+    const int bu = static_cast<int>(
+        std::floor((before_.camera.fx * p.x() / p.z() + before_.camera.cx) / before_.step));
+    const int bv = static_cast<int>(
+        std::floor((before_.camera.fy * p.y() / p.z() + before_.camera.cy) / before_.step));
+    if (bu < 1 || bv < 1 || bu + 1 >= nearest_.cols || bv + 1 >= nearest_.rows) {
+      return Seen::kNothing;
+    }
+    const double near_m = 0.001 * nearest_.at<std::uint16_t>(bv, bu);
+    const double far_m = 0.001 * farthest_.at<std::uint16_t>(bv, bu);
+    const double margin = options_.margin_m + options_.margin_per_m2 * p.z() * p.z();
+    if (near_m > p.z() + margin) return Seen::kThrough;
+    const bool is_same = near_m > 0.0 && near_m < p.z() + margin && far_m > p.z() - margin;
+    return is_same ? Seen::kSame : Seen::kNothing;
+  }
+
+ private:
+  const DepthView& now_;
+  const DepthView& before_;
+  Eigen::Matrix3d R_;
+  Eigen::Vector3d t_;
+  const MotionRegionOptions& options_;
+  cv::Mat nearest_;
+  cv::Mat farthest_;
+};
 
 }  // namespace
 
@@ -61,6 +79,34 @@ void Describe(OptionList& list, MotionRegionOptions& o) {
            "A pose with fewer inliers is too uncertain to judge motion by.");
 }
 
+SurfaceMotion JudgeSurface(const DepthView& now, const DepthRegion& region,
+                           const EarlierView& earlier, const MotionRegionOptions& options) {
+  constexpr int kMinJudged = 30;  // thumbnail pixels
+  constexpr double kMinJudgedShare = 0.4;
+  constexpr double kRestingShare = 0.9;  // of the judged pixels that see the same surface
+  constexpr double kMovingShare = 0.2;   // that stand in what was free space
+  if (region.empty() || earlier.view->depth_mm.size() != now.depth_mm.size()) {
+    return SurfaceMotion::kNotKnown;
+  }
+  const Comparison comparison(now, earlier, options);
+  int same = 0;
+  int through = 0;
+  for (int v = 0; v < region.mask.rows; ++v) {
+    for (int u = 0; u < region.mask.cols; ++u) {
+      if (region.mask.at<std::uint8_t>(v, u) == 0) continue;
+      const Seen seen = comparison.At(u, v);
+      same += seen == Seen::kSame ? 1 : 0;
+      through += seen == Seen::kThrough ? 1 : 0;
+    }
+  }
+  const int judged = same + through;
+  if (judged < kMinJudged || judged < kMinJudgedShare * region.num_pixels) {
+    return SurfaceMotion::kNotKnown;
+  }
+  if (same >= kRestingShare * judged) return SurfaceMotion::kRests;
+  return through >= kMovingShare * judged ? SurfaceMotion::kMoves : SurfaceMotion::kNotKnown;
+}
+
 std::vector<DepthRegion> FindMovedRegions(const DepthView& now,
                                           std::span<const EarlierView> earlier,
                                           const cv::Mat& known,
@@ -68,8 +114,12 @@ std::vector<DepthRegion> FindMovedRegions(const DepthView& now,
   if (now.empty() || earlier.empty()) return {};
   cv::Mat moved = cv::Mat::zeros(now.depth_mm.size(), CV_8UC1);
   for (const EarlierView& view : earlier) {
-    if (view.view->depth_mm.size() == now.depth_mm.size()) {
-      MarkSeenThrough(now, view, options, moved);
+    if (view.view->depth_mm.size() != now.depth_mm.size()) continue;
+    const Comparison comparison(now, view, options);
+    for (int v = 0; v < moved.rows; ++v) {
+      for (int u = 0; u < moved.cols; ++u) {
+        if (comparison.At(u, v) == Seen::kThrough) moved.at<std::uint8_t>(v, u) = 255;
+      }
     }
   }
   const auto total = static_cast<double>(moved.total());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/objects/depth_region.h"
+#include "cslam/objects/object_filter.h"
 
 #include <span>
 #include <vector>
@@ -29,6 +30,11 @@ struct EarlierView {
   const DepthView* view = nullptr;
   Se3 T_earlier_now;
 };
+
+// Whether the surface of region stands where the earlier view saw a surface too (it rests), or
+// where that view looked through (it moves). kNotKnown where too little of it was in that view.
+SurfaceMotion JudgeSurface(const DepthView& now, const DepthRegion& region,
+                           const EarlierView& earlier, const MotionRegionOptions& options);
 
 // Surfaces that stand where an earlier view looked through: whatever they are, they have moved.
 // What an earlier view did not see (hidden, out of the picture, no reading) is never judged.

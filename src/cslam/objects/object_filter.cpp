@@ -87,28 +87,32 @@ void ObjectFilter::Update(const Se3& T_world_camera, const CentreMeasurement& me
   const Matrix6 I_KH = Matrix6::Identity() - K * H;
   P_ = I_KH * P_ * I_KH.transpose() + K * R * K.transpose();
   ++num_updates_;
-  Judge(!measurement.is_clipped, since_last_s, options);
+  Judge(measurement, since_last_s, options);
 }
 
-// The verdict changes only on lasting evidence, and a cut-off view is no evidence at all.
-void ObjectFilter::Judge(bool is_reliable, double since_last_s,
+// The verdict changes only on lasting evidence. The speed of a cut-off view's centre is none, and a
+// surface that stands where it stood overrules any speed.
+void ObjectFilter::Judge(const CentreMeasurement& measurement, double since_last_s,
                          const ObjectFilterOptions& options) {
-  if (!is_reliable) {
-    fast_for_s_ = 0.0;
-    return;
-  }
   const double speed = velocity().norm();
   const Eigen::Vector3d direction =
       speed > 1e-9 ? Eigen::Vector3d(velocity() / speed) : Eigen::Vector3d::UnitX();
   const double variance = direction.dot(P_.bottomRightCorner<3, 3>() * direction);
-  const bool is_fast =
-      speed > options.moving_speed_mps && speed * speed > options.significance * variance;
-  const bool is_slow = speed < options.static_speed_mps &&
-                       std::sqrt(std::max(0.0, variance)) < options.max_static_sigma_mps;
+  const bool rests = measurement.surface == SurfaceMotion::kRests;
+  const bool moves = measurement.surface == SurfaceMotion::kMoves;
+  const bool has_speed = !measurement.is_clipped;
+  const bool is_fast = moves || (has_speed && !rests && speed > options.moving_speed_mps &&
+                                 speed * speed > options.significance * variance);
+  const bool is_slow = rests || (has_speed && !moves && speed < options.static_speed_mps &&
+                                 std::sqrt(std::max(0.0, variance)) < options.max_static_sigma_mps);
   fast_for_s_ = is_fast ? fast_for_s_ + since_last_s : 0.0;
-  slow_for_s_ = is_slow ? slow_for_s_ + since_last_s : 0.0;
-  if (fast_for_s_ >= options.moving_after_s && is_fast) motion_ = ObjectMotion::kMoving;
-  if (slow_for_s_ >= options.static_after_s && is_slow) motion_ = ObjectMotion::kStatic;
+  if (is_slow) {
+    slow_for_s_ += since_last_s;
+  } else if (is_fast) {
+    slow_for_s_ = 0.0;
+  }
+  if (is_fast && fast_for_s_ >= options.moving_after_s) motion_ = ObjectMotion::kMoving;
+  if (is_slow && slow_for_s_ >= options.static_after_s) motion_ = ObjectMotion::kStatic;
 }
 
 double ObjectFilter::speed_sigma_mps() const {

@@ -34,11 +34,16 @@ enum class ObjectMotion : std::uint8_t {
 };
 const char* ToString(ObjectMotion motion);
 
+// Whether an object's surface stands where it stood a moment before: evidence that a cut-off view
+// does not spoil, other than the centre of what is seen.
+enum class SurfaceMotion : std::uint8_t { kNotKnown, kRests, kMoves };
+
 // A measured centre of an object.
 struct CentreMeasurement {
   Eigen::Vector3d centre_camera = Eigen::Vector3d::Zero();  // m
   bool is_clipped = false;  // by the picture's border or by something in front
   Eigen::Matrix3d camera_covariance_m2 = Eigen::Matrix3d::Zero();  // of the camera's position
+  SurfaceMotion surface = SurfaceMotion::kNotKnown;
 };
 
 // An extended Kalman filter on [position, velocity] in the world (Eqs. 2 to 10 of the paper),
@@ -63,7 +68,8 @@ class ObjectFilter {
   double speed_sigma_mps() const;
 
  private:
-  void Judge(bool is_reliable, double since_last_s, const ObjectFilterOptions& options);
+  void Judge(const CentreMeasurement& measurement, double since_last_s,
+             const ObjectFilterOptions& options);
 
   Vector6 x_;
   Matrix6 P_ = Matrix6::Identity();

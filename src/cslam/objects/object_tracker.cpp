@@ -105,9 +105,7 @@ void ObjectTracker::Observe(FrameId frame, Stamp stamp, DepthView view,
     object.is_detected_now = false;
   for (Object& object : objects_) {
     if (history_.empty()) break;
-    object.region = Carried(history_.back(), object.region, object.is_person(),
-                            object.filter ? &*object.filter : nullptr,
-                            options_.max_growth * object.reference_area_m2);
+    object.region = Carried(history_.back(), object.region, object);
     if (!object.region.empty()) object.box = object.region.box;
   }
   if (detections != nullptr && (!newest_taken_ || *newest_taken_ < detections->frame)) {
@@ -132,23 +130,33 @@ void ObjectTracker::MoveWorld(const Se3& T_world_last) {
   }
 }
 
-// Where a region of an earlier frame is in the present one.
-DepthRegion ObjectTracker::Carried(const Frame& from, const DepthRegion& region, bool is_person,
-                                   const ObjectFilter* filter, double max_area_m2) const {
+// Where a region of an earlier frame is in the present one. Only what moves may grow on the way:
+// everything else is where it was.
+DepthRegion ObjectTracker::Carried(const Frame& from, const DepthRegion& region,
+                                   const Object& object) const {
   constexpr int kMinUpdates = 4;  // before a velocity means anything
+  if (region.empty()) return {};
   const Se3 T_now_from = now_.T_world_camera.Inverse() * from.T_world_camera;
+  const double dt_s = SecondsBetween(now_.stamp, from.stamp);
+  const bool may_move = LabelOf(object) == KeypointLabel::kDynamic &&
+                        (object.is_person() || object.class_id < 0 ||
+                         (object.filter && object.filter->motion() == ObjectMotion::kMoving));
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  if (filter != nullptr && filter->num_updates() >= kMinUpdates) {
-    const double dt_s = SecondsBetween(now_.stamp, from.stamp);
-    shift = now_.T_world_camera.R().transpose() * filter->velocity() * dt_s;
+  double margin_px = 0.0;
+  if (may_move) {
+    margin_px = options_.region.carry_speed_mps * dt_s * camera_.fx /
+                std::max(0.3, static_cast<double>(region.median_m));
+    if (object.filter && object.filter->num_updates() >= kMinUpdates) {
+      shift = now_.T_world_camera.R().transpose() * object.filter->velocity() * dt_s;
+    }
   }
-  DepthRegion carried =
-      CarryRegion(from.view, region, now_.view, T_now_from, shift, is_person, options_.region);
+  DepthRegion carried = CarryRegion(from.view, region, now_.view, T_now_from, shift, margin_px,
+                                    object.is_person(), options_.region);
+  const double max_area_m2 = options_.max_growth * object.reference_area_m2;
   if (carried.empty() || max_area_m2 <= 0.0 || AreaM2(carried) <= max_area_m2) return carried;
   // It has run into a neighbour: take only what was there before.
-  RegionOptions tight = options_.region;
-  tight.carry_margin_px = 0.0;
-  return CarryRegion(from.view, region, now_.view, T_now_from, shift, is_person, tight);
+  return CarryRegion(from.view, region, now_.view, T_now_from, shift, 0.0, object.is_person(),
+                     options_.region);
 }
 
 void ObjectTracker::TakeIn(const Detections& detections) {
@@ -208,9 +216,12 @@ void ObjectTracker::Associate(const Frame& frame, const Detections& detections) 
   std::vector<Pair> pairs;
   for (std::size_t d = 0; d < detections.objects.size(); ++d) {
     const Detection& detection = detections.objects[d];
-    const bool is_person = detection.class_id == kPersonClass;
     Box box_now = detection.box;
-    if (is_late) box_now = Carried(frame, regions[d], is_person, nullptr, 0.0).box;
+    if (is_late) {
+      Object stranger;
+      stranger.class_id = detection.class_id;
+      box_now = Carried(frame, regions[d], stranger).box;
+    }
     for (const Object& object : objects_) {
       if (object.class_id != detection.class_id && object.class_id >= 0) continue;
       double iou = Iou(object.box, box_now);
@@ -257,9 +268,7 @@ void ObjectTracker::Renew(std::optional<TrackId> id, const Detection& detection,
     object.region = std::move(region);
     return;
   }
-  DepthRegion carried =
-      Carried(frame, region, object.is_person(), object.filter ? &*object.filter : nullptr,
-              options_.max_growth * object.reference_area_m2);
+  DepthRegion carried = Carried(frame, region, object);
   if (!carried.empty()) object.region = std::move(carried);
   object.box = object.region.empty() ? detection.box : object.region.box;
 }
@@ -290,8 +299,11 @@ int ObjectTracker::FindUnknown(const Se3& T_world_camera, int num_inliers) {
 
 // A new piece of an unknown thing already followed renews it.
 void ObjectTracker::AddUnknown(const DepthRegion& region, const Se3& T_world_camera) {
+  const double gap_px = 3.0 * now_.view.step;  // pieces of one thing may lie so far apart
+  const Box near{region.box.x_min - gap_px, region.box.y_min - gap_px, region.box.x_max + gap_px,
+                 region.box.y_max + gap_px};
   const auto known = std::find_if(objects_.begin(), objects_.end(), [&](const Object& o) {
-    return o.class_id < 0 && !o.region.empty() && !Intersect(o.box, region.box).empty() &&
+    return o.class_id < 0 && !o.region.empty() && !Intersect(o.box, near).empty() &&
            std::abs(o.region.median_m - region.median_m) <
                static_cast<float>(options_.unknown.reach_m);
   });
@@ -364,7 +376,8 @@ void ObjectTracker::Settle(const Se3& T_world_camera,
     const CentreMeasurement measurement{
         .centre_camera = object.region.centre_camera,
         .is_clipped = IsClipped(object.region) || IsCovered(object.region, now_.view),
-        .camera_covariance_m2 = position_covariance_m2};
+        .camera_covariance_m2 = position_covariance_m2,
+        .surface = SurfaceMotionOf(object)};
     if (!object.filter) {
       object.filter.emplace(T_world_camera, measurement);
     } else if (object.filtered < now_.stamp) {
@@ -376,6 +389,15 @@ void ObjectTracker::Settle(const Se3& T_world_camera,
   }
   now_.is_settled = true;
   Remember();
+}
+
+// Whether the object's surface stands where it stood a moment ago.
+SurfaceMotion ObjectTracker::SurfaceMotionOf(const Object& object) const {
+  constexpr double kSlackS = 1e-3;
+  const Frame* before = SettledBefore(0.5 * options_.unknown.reference_age_s - kSlackS);
+  if (before == nullptr) return SurfaceMotion::kNotKnown;
+  const EarlierView earlier{&before->view, before->T_world_camera.Inverse() * now_.T_world_camera};
+  return JudgeSurface(now_.view, object.region, earlier, options_.unknown);
 }
 
 void ObjectTracker::SettleLost() {

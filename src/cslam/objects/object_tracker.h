@@ -27,7 +27,7 @@ struct ObjectTrackerOptions {
   double min_iou = 0.3;         // for a detection to be a known object
   double bridge_s = 1.0;        // how long an undetected object is carried on
   int max_history_frames = 30;  // how old a frame may be whose detections come late
-  double max_growth = 1.5;      // of a carried region's size, before it no longer grows
+  double max_growth = 1.3;      // of a carried region's size, before it no longer grows
   RegionOptions region;
   LabelOptions labels;
   ObjectFilterOptions filter;
@@ -114,8 +114,8 @@ class ObjectTracker {
 
   void MoveWorld(const Se3& T_world_last);
   void Remember();
-  DepthRegion Carried(const Frame& from, const DepthRegion& region, bool is_person,
-                      const ObjectFilter* filter, double max_area_m2) const;
+  DepthRegion Carried(const Frame& from, const DepthRegion& region, const Object& object) const;
+  SurfaceMotion SurfaceMotionOf(const Object& object) const;
   void TakeIn(const Detections& detections);
   void Associate(const Frame& frame, const Detections& detections);
   std::vector<DepthRegion> SegmentAll(const Frame& frame, const Detections& detections) const;
