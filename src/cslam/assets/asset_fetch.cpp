@@ -160,9 +160,15 @@ double DownloadMegabytes(const std::string& package, const fs::path& folder) {
   return 0.0;
 }
 
-// Fills folder/usr/share with the files that the sources name.
-void Download(const std::string& package, const SourceList& sources, const fs::path& folder,
-              const FetchCallback& progress) {
+// What a command that prints a version says.
+std::string VersionFrom(const std::vector<std::string>& command, const fs::path& folder) {
+  const CommandResult result = RunCommand(command, folder);
+  return result.exit_code == 0 && !result.output.empty() ? FirstLineOf(result.output) : "unknown";
+}
+
+// Fills folder/usr/share with the files that the sources name; returns the package's version.
+std::string Download(const std::string& package, const SourceList& sources, const fs::path& folder,
+                     const FetchCallback& progress) {
   const double total_mb = DownloadMegabytes(package, folder);
   const auto report = [&] {
     if (progress) progress({package, std::min(MegabytesIn(folder), total_mb), total_mb});
@@ -183,15 +189,7 @@ void Download(const std::string& package, const SourceList& sources, const fs::p
   command.insert(command.end(), files.begin(), files.end());
   const CommandResult unpacked = RunCommand(command, folder, report);
   if (unpacked.exit_code != 0) ThrowMissing(package, ReasonIn(unpacked.output));
-}
-
-std::string VersionOf(const std::string& package, const fs::path& folder) {
-  const CommandResult result =
-      RunCommand({"apt-cache", "show", "--no-all-versions", package}, folder);
-  for (const TextLine& line : SplitTextLines(result.output)) {
-    if (line.fields.size() == 2 && line.fields[0] == "Version:") return line.fields[1];
-  }
-  return "unknown";
+  return VersionFrom({"dpkg-deb", "-f", deb.string(), "Version"}, folder);
 }
 
 // Copies a package's files to the folder in the making; returns its line of the manifest.
@@ -201,19 +199,21 @@ std::string AddPackage(const std::string& package, const SourceList& sources,
   const TemporaryFolder temporary(root.string() + "." + package);
   fs::path share = places.share;
   const bool is_installed = IsInstalled(share, sources);
+  std::string version;
   if (!is_installed) {
     if (!places.may_download)
       ThrowMissing(package, "it is not installed, and downloads are switched off");
-    Download(package, sources, temporary.path(), progress);
+    version = Download(package, sources, temporary.path(), progress);
     share = temporary.path() / "usr/share";
+  } else {
+    version = VersionFrom({"dpkg-query", "-W", "-f=${Version}", package}, temporary.path());
   }
   try {
     CopyPackage(share, sources, root);
   } catch (const Error& error) {
     ThrowMissing(package, error.what());
   }
-  return fmt::format("{} {} {}", package, VersionOf(package, temporary.path()),
-                     is_installed ? "installed" : "downloaded");
+  return fmt::format("{} {} {}", package, version, is_installed ? "installed" : "downloaded");
 }
 
 void PutInPlace(const fs::path& made, const fs::path& root) {

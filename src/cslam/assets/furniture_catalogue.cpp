@@ -64,9 +64,10 @@ class Reader {
     };
     entry.name = text("name");
     entry.creator = text("creator");
-    entry.size_m = kMetresPerCentimetre * Eigen::Vector3d(Length(properties, "width"),
-                                                          Length(properties, "depth"),
-                                                          Length(properties, "height"));
+    const double width_cm = Length(properties, "width");
+    const double depth_cm = Length(properties, "depth");
+    const double height_cm = Length(properties, "height");
+    entry.size_m = kMetresPerCentimetre * Eigen::Vector3d(width_cm, depth_cm, height_cm);
     if (const auto found = properties.find("dropOnTopElevation"); found != properties.end()) {
       const double top_cm = Number(found->second.value, found->second.line);
       if (top_cm > 0.0) entry.top_m = kMetresPerCentimetre * top_cm;

@@ -21,7 +21,8 @@ constexpr double kCreaseRad = 0.7;        // edges sharper than 40 degrees stay 
 constexpr double kMinOpacity = 0.5;       // less is glass
 constexpr int kMaxTexturePx = 1024;       // larger pictures are halved
 constexpr float kScreenEmission = 0.85F;  // of the texture: a lit screen in a lit room
-constexpr double kDarkest = 20.0;         // grey levels: nothing in a room is blacker or whiter
+constexpr double kFrameLevel = 38.0;  // grey level of screens' frames: detectors expect them dark
+constexpr double kDarkest = 20.0;     // grey levels: nothing in a room is blacker or whiter
 constexpr double kBrightest = 228.0;
 
 enum class Role { kPicture, kScreen, kFabric, kPlain };
@@ -115,7 +116,9 @@ cv::Scalar PlainColor(const ObjMaterial& material, int tint) {
           static_cast<double>(color[2])};
 }
 
-int PaintPlainMaterial(const ObjMaterial& material, int tint, PropBrush& brush) {
+int PaintPlainMaterial(const ObjMaterial& material, PropKind kind, int tint, PropBrush& brush) {
+  if (kind == PropKind::kMonitor || kind == PropKind::kTelevision)
+    return brush.Plain(cv::Scalar::all(kFrameLevel));
   if (NameHas(material.name, {"wood", "oak", "walnut", "pine", "legno", "madera"}))
     return brush.Wood(PlainColor(material, 0));
   const cv::Scalar color = PlainColor(material, tint);
@@ -201,7 +204,7 @@ std::vector<int> PaintModel(const std::vector<ObjMaterial>& materials, const Pac
         indices.push_back(brush.RichFabric());
         break;
       case Role::kPlain:
-        indices.push_back(PaintPlainMaterial(material, tint, brush));
+        indices.push_back(PaintPlainMaterial(material, choice.kind, tint, brush));
         break;
     }
   }

@@ -82,7 +82,7 @@ cv::Mat PaintRichFabric(cv::Size size, double texels_per_m, Rng rng) {
 }
 
 cv::Mat PaintLitScreen(cv::Size size, Rng rng) {
-  const cv::Scalar deep = RandomColor(rng, 0.6, 0.24);
+  const cv::Scalar deep(rng.Uniform(70.0, 110.0), rng.Uniform(40.0, 64.0), rng.Uniform(14.0, 34.0));
   cv::Mat image(size, CV_8UC3);
   for (int y = 0; y < size.height; ++y)  // lighter towards the top, as screens at rest look
     image.row(y).setTo(Shift(deep, 40.0 * (1.0 - static_cast<double>(y) / size.height)));

@@ -31,7 +31,7 @@ constexpr std::array<KindFacts, kNumPropKinds> kKinds{{
     {PropKind::kKeyboard, "keyboard", 66, 0.44, 0.15, 0.03, 0.03},
     {PropKind::kBottle, "bottle", 39, 0.08, 0.08, 0.29, 0.29},
     {PropKind::kPottedPlant, "potted_plant", 58, 0.60, 0.60, 1.00, 0.35},
-    {PropKind::kBackpack, "backpack", 24, 0.34, 0.34, 0.46, 0.46},
+    {PropKind::kBackpack, "backpack", 24, 0.34, 0.30, 0.46, 0.46},
     {PropKind::kCouch, "couch", 57, 1.90, 0.92, 0.85, 0.44},
     {PropKind::kTable, "table", 60, 1.60, 0.90, 0.74, 0.74},
     {PropKind::kDesk, "desk", kNoClass, 1.40, 0.75, 0.74, 0.74},
