@@ -17,7 +17,7 @@ constexpr double kTurnWindow_s = 0.45;    // the same for the direction
 constexpr double kTurnRate_rad_s = 1.8;   // of an unhurried turn on the spot
 constexpr double kSlow_m_s = 0.2;         // below, the direction of motion says nothing
 constexpr double kStepRate_hz = 0.15;     // below, nobody steps
-constexpr double kTurnPerStep_rad = 0.8;
+constexpr double kTurnPerStep_rad = 0.85;
 
 // Mean over 2 * half + 1 neighbours; the ends repeat.
 template <typename T>

@@ -16,6 +16,7 @@ struct Footfall {
   double land_s = 0.0;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   double yaw_rad = 0.0;
+  double rise = 0.0;  // of the heel before leaving the former place: 0 none, 1 as in a full stride
 };
 
 // Where the feet are while someone follows a path: planted, or swinging to the next place.

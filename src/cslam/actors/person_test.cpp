@@ -22,6 +22,18 @@ std::shared_ptr<const PersonMotion> ThereAndBack() {
   return Walk({{0.0, {0.0, 0.0}}, {3.0, {3.0, 0.0}}, {5.0, {3.0, 0.0}}, {8.0, {0.0, 0.0}}}, 3);
 }
 
+// Corners of all kinds, a reversal without a pause among them, in 8 s.
+std::shared_ptr<const PersonMotion> Zigzag() {
+  return Walk({{0.0, {0.0, 0.0}},
+               {1.5, {1.5, 0.0}},
+               {3.0, {1.5, 1.6}},
+               {4.5, {0.5, 0.4}},
+               {6.0, {1.7, 1.4}},
+               {6.3, {1.7, 1.4}},
+               {8.0, {0.2, 1.5}}},
+              7);
+}
+
 JointFrames FramesAt(const PersonModel& model, const PersonMotion& motion, double time_s) {
   return SolvePose(model.body.skeleton, *motion.At(time_s));
 }
@@ -70,51 +82,62 @@ TEST(Walk, LooksWhereItIsToldWhileStanding) {
   EXPECT_NEAR(std::atan2(forward.y(), forward.x()), 1.5, 0.05);
 }
 
-// The lowest part of a planted foot must stay where it is; the swinging foot may move.
+// Speed of the slowest of the places a foot stands on: something must rest on the floor.
+double SlowestSole(const Skeleton& skeleton, const JointFrames& now, const JointFrames& next) {
+  double slowest_m_s = 1e9;
+  for (const Side side : kSides) {
+    const Joint foot = LegOf(side).end;
+    const double sole_m = -skeleton.T_body_joint[foot].translation.z();
+    const Eigen::Vector3d ball(skeleton.OffsetOf(ToesOf(side)).x(), 0.0, sole_m);
+    const Eigen::Vector3d heel(-skeleton.heel_m, 0.0, sole_m);
+    for (const Eigen::Vector3d& point : {ball, heel}) {
+      const double speed_m_s = (next[foot] * point - now[foot] * point).norm() / kTick_s;
+      slowest_m_s = std::min(slowest_m_s, speed_m_s);
+    }
+  }
+  return slowest_m_s;
+}
+
 TEST(Walk, PlantsItsFeet) {
   const auto model = MakePersonModel(nullptr, 2);
-  const auto motion = ThereAndBack();
-  int num_planted = 0;
-  for (double t = 0.0; t + kTick_s <= 8.0; t += kTick_s) {
-    const JointFrames now = FramesAt(*model, *motion, t);
-    const JointFrames next = FramesAt(*model, *motion, t + kTick_s);
-    double slowest_m_s = 1e9;
-    for (const Side side : kSides) {
-      const Joint foot = LegOf(side).end;
-      const Eigen::Vector3d ball(0.12, 0.0, -0.06);
-      const Eigen::Vector3d heel(-0.05, 0.0, -0.075);
-      for (const Eigen::Vector3d& point : {ball, heel}) {
-        const double speed = (next[foot] * point - now[foot] * point).norm() / kTick_s;
-        slowest_m_s = std::min(slowest_m_s, speed);
-      }
+  for (const auto& motion : {ThereAndBack(), Zigzag()}) {
+    int num_slips = 0;
+    int num_planted = 0;
+    for (double t = 0.0; t + kTick_s <= 8.0; t += kTick_s) {
+      const double speed_m_s = SlowestSole(model->body.skeleton, FramesAt(*model, *motion, t),
+                                           FramesAt(*model, *motion, t + kTick_s));
+      if (speed_m_s > 0.1) ++num_slips;
+      if (speed_m_s < 0.005) ++num_planted;
     }
-    EXPECT_LT(slowest_m_s, 0.12) << "at " << t << " s nothing carries the body";
-    if (slowest_m_s < 0.02) ++num_planted;
+    EXPECT_LE(num_slips, 4);  // of 400: ticks in which one foot lands and the other leaves
+    EXPECT_GT(num_planted, 320);
   }
-  EXPECT_GT(num_planted, 300);  // of 400
 }
 
 TEST(Walk, KeepsFeetAboveTheFloorAndNearIt) {
   const auto model = MakePersonModel(nullptr, 0);
-  const Animation person = Animate(model, ThereAndBack());
-  for (double t = 0.0; t <= 8.0; t += 0.05) {
-    const double lowest_m = Lowest(*person(t));
-    EXPECT_GT(lowest_m, -0.025) << t;
-    EXPECT_LT(lowest_m, 0.025) << t;
+  for (const auto& motion : {ThereAndBack(), Zigzag()}) {
+    const Animation person = Animate(model, motion);
+    for (double t = 0.0; t <= 8.0; t += 0.05) {
+      const double lowest_m = Lowest(*person(t));
+      EXPECT_GT(lowest_m, -0.025) << t;
+      EXPECT_LT(lowest_m, 0.025) << t;
+    }
   }
 }
 
 TEST(Walk, KeepsTheHeadOnTopAndMovesSmoothly) {
   const auto model = MakePersonModel(nullptr, 1);
-  const auto motion = ThereAndBack();
-  const double rest_m = model->body.skeleton.T_body_joint[kHead].translation.z();
-  for (double t = 0.0; t + kTick_s <= 8.0; t += kTick_s) {
-    const JointFrames now = FramesAt(*model, *motion, t);
-    const JointFrames next = FramesAt(*model, *motion, t + kTick_s);
-    EXPECT_NEAR(now[kHead].translation.z(), rest_m, 0.1) << t;
-    for (std::size_t j = 0; j < kNumJoints; ++j) {
-      EXPECT_LT((next[j].translation - now[j].translation).norm() / kTick_s, 5.5)
-          << "joint " << j << " at " << t;
+  for (const auto& motion : {ThereAndBack(), Zigzag()}) {
+    const double rest_m = model->body.skeleton.T_body_joint[kHead].translation.z();
+    for (double t = 0.0; t + kTick_s <= 8.0; t += kTick_s) {
+      const JointFrames now = FramesAt(*model, *motion, t);
+      const JointFrames next = FramesAt(*model, *motion, t + kTick_s);
+      EXPECT_NEAR(now[kHead].translation.z(), rest_m, 0.1) << t;
+      for (std::size_t j = 0; j < kNumJoints; ++j) {
+        EXPECT_LT((next[j].translation - now[j].translation).norm() / kTick_s, 5.5)
+            << "joint " << j << " at " << t;
+      }
     }
   }
 }

@@ -56,10 +56,10 @@ class PlainBuilder {
     const TubeLook cloth{
         .picture = kShirt, .picture_width_m = 1.0, .picture_height_m = 1.0, .boxiness = 2.4};
     const std::array<Ring, 11> shirt{
-        {MakeRing(Middle(-0.005, 1.475), 0.062, 0.07, kChest, kNeck, 0.4),
-         MakeRing(Middle(-0.01, 1.455), 0.075, 0.12, kChest),
-         MakeRing(Middle(-0.01, 1.425), 0.092, 0.165, kChest),
-         MakeRing(Middle(0.0, 1.37), 0.108, 0.182, kChest),
+        {MakeRing(Middle(-0.005, 1.475), 0.062, 0.085, kChest, kNeck, 0.3),
+         MakeRing(Middle(-0.01, 1.455), 0.078, 0.145, kChest),
+         MakeRing(Middle(-0.01, 1.425), 0.094, 0.185, kChest),
+         MakeRing(Middle(0.0, 1.37), 0.108, 0.188, kChest),
          MakeRing(Middle(0.005, 1.28), 0.118, 0.172, kChest),
          MakeRing(Middle(0.005, 1.19), 0.112, 0.16, kChest, kWaist, 0.4),
          MakeRing(Middle(0.005, 1.10), 0.106, 0.15, kWaist),

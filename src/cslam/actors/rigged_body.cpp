@@ -67,7 +67,7 @@ class RigBuilder {
   }
 
  private:
-  static constexpr double kButtockShare = 0.105;  // of the hip's height: what one sits on
+  static constexpr double kButtockShare = 0.125;  // of the hip's height: what one sits on
 
   const BlendMesh& MeshOf(std::string_view part) const {
     for (const BlendMesh& mesh : rig_.meshes) {
