@@ -139,7 +139,7 @@ TEST_P(RobotStory, MovesAsThePapersTableSaysOrWithinASlamSystemsReach) {
 
 TEST_P(RobotStory, RidesSmoothlyOnFlatGround) {
   constexpr double kStepS = 0.02;
-  constexpr double kMaxAcceleration = 1.5;      // m/s^2
+  constexpr double kMaxAcceleration = 1.8;      // m/s^2
   constexpr double kMaxTurnAcceleration = 6.0;  // rad/s^2
   const CameraMotion& motion = story().camera;
   Se3 before = motion.T_world_camera(0.0);

@@ -55,7 +55,7 @@ class LabWalls {
   void North() {
     room_.AgainstWall(PropKind::kBookcase, Wall::kNorth, At(Wall::kNorth, 0.10));
     room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.28), 0.8, 0.95);
-    Topped(PropKind::kCabinet, Wall::kNorth, 0.46, PropKind::kBackpack);
+    Topped(PropKind::kCabinet, Wall::kNorth, 0.46, PropKind::kCarton);
     room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.60), 0.9, 0.8);
     room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.73), 0.7, 0.8);
     room_.AgainstWall(PropKind::kBookcase, Wall::kNorth, At(Wall::kNorth, 0.86));

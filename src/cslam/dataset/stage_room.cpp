@@ -134,7 +134,11 @@ Se3 AtWall(const RoomShell& room, Wall wall, double along_m, double out_m, doubl
 
 RoomDecorator::RoomDecorator(const PropLibrary& props, SceneBuilder& scene, RoomShell room,
                              std::uint64_t seed)
-    : props_(props), scene_(scene), room_(std::move(room)), rng_(seed, 0, 41) {}
+    : props_(props),
+      scene_(scene),
+      room_(std::move(room)),
+      rng_(seed, 0, 41),
+      next_poster_(AnyVariant()) {}
 
 Se3 RoomDecorator::AgainstWall(PropKind kind, Wall wall, double along_m, double turn_rad) {
   const int variant = AnyVariant();
@@ -155,7 +159,7 @@ int RoomDecorator::Put(PropKind kind, const Se3& T_world_place) {
 }
 
 void RoomDecorator::Hang(Wall wall, double along_m, double bottom_m, double width_m) {
-  const cv::Mat picture = props_.Poster(AnyVariant());
+  const cv::Mat picture = props_.Poster(next_poster_++);
   const double height_m = width_m * picture.rows / picture.cols;
   scene_.AddBox("poster", kNoClass,
                 AtWall(room_, wall, along_m + Jitter(kJitterM), 0.5 * kPosterThicknessM + 0.002,

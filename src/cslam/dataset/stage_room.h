@@ -68,7 +68,7 @@ class RoomDecorator {
   // A prop of any variant on T_world_place; returns its instance id.
   int Put(PropKind kind, const Se3& T_world_place);
 
-  // A poster of any picture; its height follows from the picture.
+  // A poster with a picture of its own, as far as there are enough; its height follows from it.
   void Hang(Wall wall, double along_m, double bottom_m, double width_m);
 
   // A closed door in a wall.
@@ -85,6 +85,7 @@ class RoomDecorator {
   SceneBuilder& scene_;
   RoomShell room_;
   Rng rng_;
+  int next_poster_ = 0;
 };
 
 // A living laboratory for the robot: every wall has furniture and pictures, the middle is free (at
