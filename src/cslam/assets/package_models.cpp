@@ -57,13 +57,13 @@ constexpr auto kModels = std::to_array<PackageModel>({
 });
 
 constexpr auto kTextures = std::to_array<PackageTexture>({
+    {SurfaceKind::kParquet, "floor_wood01.png", 1.2},
     {SurfaceKind::kParquet, "floor039.png", 1.0},
     {SurfaceKind::kParquet, "floor035.png", 0.9},
-    {SurfaceKind::kParquet, "floor_wood01.png", 1.2},
-    {SurfaceKind::kRug, "carpet013.png"},
     {SurfaceKind::kRug, "carpet018.png"},
+    {SurfaceKind::kRug, "carpet010.png"},
+    {SurfaceKind::kRug, "carpet012.png"},
     {SurfaceKind::kRug, "carpet002.png"},
-    {SurfaceKind::kRug, "carpet019.png"},
     {SurfaceKind::kCarpet, "carpet029.png", 0.5},
     {SurfaceKind::kCarpet, "carpet028.png", 0.5},
     {SurfaceKind::kTiles, "floor013.png", 1.2},

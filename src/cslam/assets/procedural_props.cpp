@@ -46,7 +46,7 @@ SurfaceImage PaintSurface(SurfaceKind kind, double texels_per_m, Rng rng) {
     case SurfaceKind::kCarpet:
       return {PaintFabric(texels(2.0), texels_per_m, deep, own), 2.0};
     case SurfaceKind::kRug:
-      return {PaintRug(texels(2.0), texels_per_m, own), 2.0};
+      return {PaintRug(TexelSize(1.6, 2.4, texels_per_m), texels_per_m, own), 0.0};
     case SurfaceKind::kTiles:
       return {PaintCeiling(texels(2.48), texels_per_m, own), 2.48};
     case SurfaceKind::kBrick:
@@ -81,6 +81,7 @@ int ProceduralProps::Add(SceneBuilder& scene, PropKind kind, int variant, const 
 int ProceduralProps::AddSurface(SceneBuilder& scene, SurfaceKind kind, int variant) const {
   const auto stream = kSurfaceStream + static_cast<std::uint64_t>(kind);
   const SurfaceImage surface = PaintSurface(kind, texels_per_m_, RngFor(stream, variant));
+  if (kind == SurfaceKind::kRug) return scene.AddPicture(surface.image);
   return scene.AddSurface(surface.image, surface.period_m, surface.period_m);
 }
 

@@ -73,7 +73,8 @@ class PropLibrary {
   virtual int Add(SceneBuilder& scene, PropKind kind, int variant, const std::string& name,
                   const Se3& T_world_prop) const = 0;
 
-  // A material for the builder's rectangles that repeats with its natural period.
+  // A material for the builder's rectangles that repeats with its natural period; a rug (about
+  // 2 : 3, the longer side along the texture's v) fills the rectangle once.
   virtual int AddSurface(SceneBuilder& scene, SurfaceKind kind, int variant) const = 0;
 
   // CV_8UC3, about 1000 px wide: a poster for a wall, with nothing on it that a detector would take
