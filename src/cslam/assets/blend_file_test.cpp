@@ -129,9 +129,8 @@ TEST_F(BlendFileTest, ReportsDamageWhereverTheFileIsCutOff) {
               ThrowsMessage<Error>(HasSubstr("damaged or cut off")));
 }
 
-// A square with one bone, one weight group and a packed picture.
-std::string SquareFile() {
-  TestBlend blend;
+// As in Blender, as far as the reader looks.
+void DescribeMeshes(TestBlend& blend) {
   blend.Describe("ID", {{"char", "name[24]"}});
   blend.Describe("ListBase", {{"void", "*first"}, {"void", "*last"}});
   blend.Describe("Object", {{"ID", "id"},
@@ -170,7 +169,30 @@ std::string SquareFile() {
                           {"float", "arm_head[3]"},
                           {"float", "arm_tail[3]"}});
   blend.Describe("bArmature", {{"ID", "id"}, {"ListBase", "bonebase"}});
+}
 
+// A material with a packed picture; its address.
+std::uint64_t AddMaterial(TestBlend& blend) {
+  const std::uint64_t image = blend.Add("IM", "Image");
+  blend.SetText(image, "id", "IMcloth.png");
+  blend.SetText(image, "name", "//textures/cloth.png");
+  const std::uint64_t packed = blend.Add("DATA", "PackedFile");
+  blend.Set(packed, "size", 5);
+  blend.Set(packed, "data", blend.AddBytes("bytes"));
+  blend.Set(image, "packedfile", packed);
+  const std::uint64_t texture = blend.Add("TE", "Tex");
+  blend.Set(texture, "ima", image);
+  const std::uint64_t use = blend.Add("DATA", "MTex");
+  blend.Set(use, "tex", texture);
+  const std::uint64_t material = blend.Add("MA", "Material");
+  blend.SetText(material, "id", "MAcloth");
+  blend.Set(material, "g", 0.5F);
+  blend.Set(material, "mtex", use, 1);
+  return material;
+}
+
+// A unit square with weights on one corner; its address.
+std::uint64_t AddSquare(TestBlend& blend) {
   const std::uint64_t vertices = blend.Add("DATA", "MVert", 4);
   const std::uint64_t loops = blend.Add("DATA", "MLoop", 4);
   const std::uint64_t uvs = blend.Add("DATA", "MLoopUV", 4);
@@ -191,22 +213,7 @@ std::string SquareFile() {
   const std::uint64_t polygon = blend.Add("DATA", "MPoly");
   blend.Set(polygon, "totloop", 4);
 
-  const std::uint64_t image = blend.Add("IM", "Image");
-  blend.SetText(image, "id", "IMcloth.png");
-  blend.SetText(image, "name", "//textures/cloth.png");
-  const std::uint64_t packed = blend.Add("DATA", "PackedFile");
-  blend.Set(packed, "size", 5);
-  blend.Set(packed, "data", blend.AddBytes("bytes"));
-  blend.Set(image, "packedfile", packed);
-  const std::uint64_t texture = blend.Add("TE", "Tex");
-  blend.Set(texture, "ima", image);
-  const std::uint64_t use = blend.Add("DATA", "MTex");
-  blend.Set(use, "tex", texture);
-  const std::uint64_t material = blend.Add("MA", "Material");
-  blend.SetText(material, "id", "MAcloth");
-  blend.Set(material, "g", 0.5F);
-  blend.Set(material, "mtex", use, 1);
-
+  const std::uint64_t material = AddMaterial(blend);
   const std::uint64_t mesh = blend.Add("ME", "Mesh");
   blend.Set(mesh, "mat", blend.AddBytes(std::string(reinterpret_cast<const char*>(&material), 8)));
   blend.Set(mesh, "mpoly", polygon);
@@ -218,7 +225,14 @@ std::string SquareFile() {
   blend.Set(mesh, "totpoly", 1);
   blend.Set(mesh, "totloop", 4);
   blend.Set(mesh, "totcol", short{1});
+  return mesh;
+}
 
+// A square with one bone, one weight group and a packed picture.
+std::string SquareFile() {
+  TestBlend blend;
+  DescribeMeshes(blend);
+  const std::uint64_t mesh = AddSquare(blend);
   const std::uint64_t group = blend.Add("DATA", "bDeformGroup");
   blend.SetText(group, "name", "arm");
   const std::uint64_t bone = blend.Add("DATA", "Bone");

@@ -30,7 +30,6 @@ constexpr auto kModels = std::to_array<PackageModel>({
      1.2,
      {},
      "TEXTILE_generic"},
-    {PropKind::kArmchair, kCc0, "/blendswap-cc-0/armchair2/armchair2.obj", 0.0, 1.3, {}, "*"},
     {PropKind::kTeddyBear, kCc0, "/blendswap-cc-0/teddyBear/teddyBear.obj", 0.0, 1.2},
     {PropKind::kMonitor, kCc0, "/blendswap-cc-0/led_tv/led_tv.obj", 0.0, 1.3, "screen"},
     {PropKind::kTelevision, kCc0, "/blendswap-cc-0/led_tv/led_tv.obj", 0.0, 1.1, "screen"},

@@ -54,7 +54,7 @@ int PropBrush::Fur(const cv::Scalar& color_bgr) {
 
 cv::Mat PaintRichFabric(cv::Size size, double texels_per_m, Rng rng) {
   // Shades of one colour: in many colours, detectors take an armchair for a cake.
-  const cv::Scalar ground = RandomColor(rng, rng.Uniform(0.25, 0.5), rng.Uniform(0.38, 0.5));
+  const cv::Scalar ground = RandomColor(rng, rng.Uniform(0.25, 0.5), rng.Uniform(0.34, 0.46));
   cv::Mat image = PaintNoise(FractalNoise(size, {0.2 * texels_per_m, 0.2 * texels_per_m}, 6, rng),
                              ground, 20.0, 6.0, rng);
   const double area_m2 = size.area() / (texels_per_m * texels_per_m);
@@ -64,7 +64,7 @@ cv::Mat PaintRichFabric(cv::Size size, double texels_per_m, Rng rng) {
     const cv::Point at(RandomInt(rng, 0, size.width), RandomInt(rng, 0, size.height));
     const double size_m = rng.Uniform(0.004, 0.02) * (i % 9 == 0 ? 2.0 : 1.0);
     const int length = std::max(2, static_cast<int>(size_m * texels_per_m));
-    const cv::Scalar color = Shift(ground, rng.Uniform(-75.0, 85.0));
+    const cv::Scalar color = Shift(ground, rng.Uniform(-55.0, 60.0));
     const int petals = RandomInt(rng, 1, 6);
     const double turn_deg = rng.Uniform(0.0, 360.0);
     for (int p = 0; p < petals; ++p) {  // one petal is a leaf, several are a flower
