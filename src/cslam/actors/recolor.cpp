@@ -10,6 +10,7 @@ namespace cslam {
 namespace {
 
 constexpr double kBlack = 12.0;             // grey level; unused texels are darker
+constexpr double kPrint = 0.95;             // of the mean; darker texels of a shirt are print
 constexpr int kClothSide_px = 1024;         // a texel of cloth is then about a millimetre
 constexpr double kShirtTexelsPerM = 950.0;  // the front, 0.62 m high, is 0.57 of the texture
 
@@ -96,7 +97,7 @@ cv::Mat RecolorShirt(const cv::Mat& shirt, const PersonLook& look) {
   for (int v = 0; v < cloth.rows; ++v) {
     for (int u = 0; u < cloth.cols; ++u) {
       const double gray = Gray(folds.at<cv::Vec3b>(v, u));
-      const double shade = gray < 0.8 * mean ? 1.0 : std::min(gray / mean, 1.1);
+      const double shade = gray < kPrint * mean ? 1.0 : std::min(gray / mean, 1.1);
       for (int c = 0; c < 3; ++c) {
         unsigned char& level = cloth.at<cv::Vec3b>(v, u)[c];
         level = cv::saturate_cast<unsigned char>(shade * level);

@@ -32,11 +32,12 @@ cv::Mat AsItIs(const cv::Mat& picture, const PersonLook& /*look*/) {
 constexpr std::string_view kTrousers = "-jeans";
 constexpr std::string_view kShirt = "-tshirt";
 constexpr std::string_view kShoes = "-classic_shoes";
+constexpr std::string_view kHair = "-mhair";
 constexpr std::array<Part, 6> kParts{{{"-male", RecolorSkin},
                                       {kTrousers, RecolorTrousers},
                                       {kShirt, RecolorShirt},
                                       {kShoes, RecolorShoes},
-                                      {"-mhair", RecolorHair},
+                                      {kHair, RecolorHair},
                                       {"-eyes", AsItIs}}};
 
 constexpr double kBuildShare = 0.6;     // of the look's build that the whole body takes
@@ -44,6 +45,7 @@ constexpr double kBallShare = 0.66;     // from the ankle to the tip of the shoe
 constexpr double kBallBlend_m = 0.025;  // half the length over which the shoe bends
 constexpr double kHeelInset_m = 0.012;  // the shoe's heel is round
 constexpr float kShirtRoom_m = 0.006F;
+constexpr float kHairRoom_m = 0.005F;  // over the skull
 constexpr float kTuckRoom_m = 0.02F;   // of the trousers under the shirt
 constexpr double kTuckBlend_m = 0.03;  // above the shirt's hem
 
@@ -165,21 +167,26 @@ class RigBuilder {
     return static_cast<int>(body_.pictures.size()) - 1;
   }
 
+  void Inflate(std::string_view part, float room_m) {
+    const auto [begin, end] = ranges_.at(part);
+    for (std::size_t i = begin; i < end; ++i)
+      body_.mesh.positions[i] += room_m * body_.mesh.normals[i];
+  }
+
   // The shirt hangs over the trousers: without some room between them, the one comes through the
-  // other when the body bends.
+  // other when the body bends. The same for the hair.
   void TuckIn() {
-    const auto [shirt_begin, shirt_end] = ranges_.at(kShirt);
-    const auto [jeans_begin, jeans_end] = ranges_.at(kTrousers);
-    auto& positions = body_.mesh.positions;
+    const auto& positions = body_.mesh.positions;
     float hem_m = std::numeric_limits<float>::max();
-    for (std::size_t i = shirt_begin; i < shirt_end; ++i)
+    for (std::size_t i = ranges_.at(kShirt).first; i < ranges_.at(kShirt).second; ++i)
       hem_m = std::min(hem_m, positions[i].z());
-    for (std::size_t i = shirt_begin; i < shirt_end; ++i)
-      positions[i] += kShirtRoom_m * body_.mesh.normals[i];
-    for (std::size_t i = jeans_begin; i < jeans_end; ++i) {
+    Inflate(kShirt, kShirtRoom_m);
+    Inflate(kHair, kHairRoom_m);
+    const auto [begin, end] = ranges_.at(kTrousers);
+    for (std::size_t i = begin; i < end; ++i) {
       const auto share = static_cast<float>(
           SmoothStep(0.0, kTuckBlend_m, static_cast<double>(positions[i].z() - hem_m)));
-      positions[i] -= share * kTuckRoom_m * body_.mesh.normals[i];
+      body_.mesh.positions[i] -= share * kTuckRoom_m * body_.mesh.normals[i];
     }
   }
 
