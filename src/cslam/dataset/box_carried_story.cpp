@@ -98,16 +98,18 @@ Story MakeBoxCarried(const Stage& stage, const StoryOptions& options) {
   const Office office = AddOffice(scene, stage.props, {.seed = options.seed});
   const int cart = AddCart(scene, 0.6 * options.texels_per_m);
   Story story;
-  story.world.timelines[cart] = Roll({{2.0, 1.0, 2.55, 0.1},
-                                      {6.5, 3.7, 2.5, 0.0},
-                                      {9.5, 3.7, 2.5, 0.0},
-                                      {12.5, 5.9, 2.45, -0.1},
-                                      {14.0, 5.9, 2.45, -0.1},
-                                      {18.5, 2.9, 2.6, 0.3},
-                                      {21.0, 2.9, 2.6, 0.3},
-                                      {24.0, 4.3, 2.35, 0.0},
-                                      {27.0, 4.3, 2.35, 0.0},
-                                      {30.0, 1.0, 2.5, 0.0}});
+  story.world.timelines[cart] = Roll({{1.0, 1.0, 2.5, 0.1},
+                                      {5.0, 3.35, 2.4, 0.0},
+                                      {9.0, 3.35, 2.4, 0.0},
+                                      {11.0, 4.1, 2.45, -0.1},
+                                      {12.5, 4.1, 2.45, -0.1},
+                                      {14.5, 5.9, 2.45, -0.1},
+                                      {15.0, 5.9, 2.45, -0.1},
+                                      {18.0, 3.5, 2.5, 0.3},
+                                      {21.5, 3.5, 2.5, 0.3},
+                                      {24.0, 3.0, 2.4, 0.1},
+                                      {27.0, 3.0, 2.4, 0.1},
+                                      {30.5, 1.0, 2.5, 0.0}});
   story.world.scene = scene.Take(RoomLighting({&office.room, 1}));
   story.camera = XyzHand(office.home, options.is_short ? kShortBoxCarriedS : kBoxCarriedS,
                          kSpeedMPerS, options.seed);

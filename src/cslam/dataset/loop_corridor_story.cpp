@@ -105,9 +105,11 @@ void Furnish(const Building& b, RoomDecorator& room, std::size_t number) {
     FillWall(room, far_wall, first);
     for (const Wall wall : {Wall::kNorth, Wall::kSouth}) {
       const double length_m = LengthOf(room.room(), wall);
-      room.Hang(wall, 0.3 * length_m, 1.0, 0.9);
-      room.Hang(wall, 0.7 * length_m, 1.15, 0.8);
-      room.AgainstWall(PropKind::kCarton, wall, 0.12 * length_m, 0.2);
+      room.AgainstWall(PropKind::kBookcase, wall, 0.22 * length_m);
+      room.Hang(wall, 0.48 * length_m, 0.8, 0.9);
+      room.Hang(wall, 0.75 * length_m, 1.1, 0.8);
+      room.AgainstWall(PropKind::kSuitcase, wall, 0.62 * length_m, 0.2);
+      room.AgainstWall(PropKind::kCarton, wall, 0.85 * length_m, 0.2);
     }
     const double middle_m = 0.5 * b.room_m.y();
     room.AgainstWall(PropKind::kBookcase, door_wall, middle_m - 0.5);

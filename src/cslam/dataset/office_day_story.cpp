@@ -103,7 +103,7 @@ class OfficeDay {
     story.world.timelines = std::move(timelines_);
     story.world.animations = cast_.Take();
     story.camera = VisitTour(visits_, options_.seed);
-    story.people = {.min_mean_share = 0.03, .min_peak_share = 0.15, .leave_view = true};
+    story.people = {.min_mean_share = 0.02, .min_peak_share = 0.15, .leave_view = true};
     return story;
   }
 
@@ -125,26 +125,26 @@ class OfficeDay {
     timelines_[plant] = AddedAt(LookSouth(1), T_world_plant);
   }
 
-  // Walks through during the first visit; at the second one's start brings the teddy bear from
+  // Walks through during the first visit; during the second one brings the teddy bear from
   // the cabinet to a chair.
   void AddFirstPerson() {
     const double t = visits_.length_s;
-    const double take_s = t + 2.6;
-    const double put_s = t + 7.4;
+    // As the camera comes back from the left.
+    const double take_s = t + (visits_.count > 2 ? 18.5 : 5.2);
+    const double put_s = take_s + 5.2;
     std::vector<FloorPoint> points;
     if (visits_.count > 2) {
-      points = {At(0.0, 5.65, 6.0),  At(2.0, 5.65, 6.0),  At(5.0, 5.6, 3.0),  At(7.2, 3.6, 2.8),
-                At(9.0, 3.6, 2.8),   At(11.2, 1.45, 3.1), At(14.5, 1.4, 6.1), At(18.0, 3.5, 6.22),
-                At(27.0, 3.5, 6.22), At(30.0, 5.65, 6.1)};
+      points = {At(0.0, 5.6, 2.75),  At(2.5, 3.7, 2.7),   At(4.5, 3.7, 2.7),   At(7.0, 1.6, 3.0),
+                At(10.5, 1.4, 6.15), At(14.0, 3.5, 6.28), At(27.0, 3.5, 6.28), At(30.0, 5.65, 6.1)};
     } else {
-      points = {At(0.0, 2.2, 2.75), At(1.5, 2.2, 2.75), At(4.0, 4.4, 2.8), At(5.5, 5.6, 3.0),
-                At(8.5, 5.65, 6.1)};
+      points = {At(0.0, 3.0, 2.75), At(1.2, 3.0, 2.75), At(4.0, 5.6, 3.0), At(7.5, 5.65, 6.1)};
     }
     for (const FloorPoint& point :
-         {At(t - 2.0, 5.65, 6.1), Facing(t + 1.8, 6.1, 2.85, 0.0),
+         {At(take_s - 4.6, 5.65, 6.1), Facing(take_s - 0.8, 6.1, 2.85, 0.0),
           Facing(take_s + kLiftS, 6.1, 2.85, 0.0), Facing(put_s - kLiftS, 4.35, 2.95, 75.0),
-          Facing(put_s + 0.3, 4.35, 2.95, 75.0), At(t + 9.2, 5.6, 3.0), At(t + 12.4, 5.65, 6.1),
-          At(t + 15.5, 3.5, 6.22), At(t + 19.5, 3.5, 6.22), At(t + 60.0, 3.5, 6.22)})
+          Facing(put_s + 0.3, 4.35, 2.95, 75.0), At(put_s + 2.1, 5.6, 3.0),
+          At(put_s + 5.3, 5.65, 6.1), At(put_s + 8.4, 3.5, 6.28), At(put_s + 12.0, 3.5, 6.28),
+          At(put_s + 120.0, 3.5, 6.28)})
       points.push_back(point);
     const auto walk = Walk(std::move(points), cast_.MotionSeed());
     const auto motion = Carrying(walk, take_s, put_s, kTeddyLoad);
@@ -159,19 +159,20 @@ class OfficeDay {
   void AddSecondPerson() {
     const double t = 2.0 * visits_.length_s;
     const double take_s = t + 0.8;
-    const double put_s = t + 7.2;
+    const double put_s = t + 10.2;
     std::vector<FloorPoint> points{At(t - 14.0, 1.4, 6.0),
                                    At(t - 7.0, 1.4, 6.0),
                                    At(t - 3.0, 1.5, 3.2),
                                    Facing(t - 1.0, 2.5, 2.95, 90.0),
                                    Facing(take_s + kLiftS, 2.5, 2.95, 90.0),
-                                   At(put_s - kLiftS - 1.2, 5.2, 2.8),
+                                   At(put_s - kLiftS - 1.5, 5.2, 2.8),
                                    Facing(put_s - kLiftS, 5.65, 3.75, 85.0),
                                    Facing(put_s + 0.3, 5.65, 3.75, 85.0),
-                                   At(t + 9.5, 4.4, 2.8),
-                                   At(t + 12.5, 2.2, 2.75),
-                                   At(t + 15.5, 1.4, 4.2),
-                                   At(t + 17.5, 1.4, 6.0),
+                                   At(put_s + 1.5, 5.45, 2.75),
+                                   At(put_s + 3.2, 4.4, 2.65),
+                                   At(put_s + 5.8, 2.2, 2.75),
+                                   At(put_s + 8.8, 1.4, 4.2),
+                                   At(put_s + 11.0, 1.4, 6.0),
                                    At(t + 60.0, 1.4, 6.0)};
     const auto walk = Walk(std::move(points), cast_.MotionSeed());
     const auto motion = Carrying(walk, take_s, put_s, kChairLoad);

@@ -51,7 +51,11 @@ void FurnishWalls(RoomDecorator& room) {
   room.Hang(Wall::kEast, 5.3, 0.7, 1.0);
 
   room.Door(Wall::kSouth, 1.0);
+  room.Hang(Wall::kSouth, 2.3, 1.1, 0.8);
   room.Hang(Wall::kSouth, 3.5, 1.0, 1.1);
+  room.Put(PropKind::kBooks, room.AgainstWall(PropKind::kCabinet, Wall::kSouth, 2.5));
+  room.Hang(Wall::kSouth, 4.7, 0.9, 0.9);
+  room.AgainstWall(PropKind::kCarton, Wall::kSouth, 4.2, 0.3);
   room.AgainstWall(PropKind::kBookcase, Wall::kSouth, 5.8);
 }
 
@@ -125,7 +129,7 @@ Office AddOffice(SceneBuilder& scene, const PropLibrary& props, const OfficeOpti
   FurnishDesks(put);
   office.seats = PutSeats(put, SeatPlaces(options.chairs_in_front));
   office.back_seats =
-      PutSeats(put, {Standing(2.2, 5.62, 0.0, 0.1), Standing(4.6, 5.62, 0.0, -0.15)});
+      PutSeats(put, {Standing(2.2, 5.56, 0.0, 0.1), Standing(4.6, 5.56, 0.0, -0.15)});
   office.T_world_teddy = room.AgainstWall(PropKind::kCabinet, Wall::kEast, 4.2);
   office.teddy_id = room.Put(PropKind::kTeddyBear, office.T_world_teddy);
   return office;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRoomM = 4.6;           // both rooms are square
-constexpr double kTwinShiftM = 6.4;      // from one room to the other, along x
+constexpr double kTwinShiftM = 5.2;      // from one room to the other, along x
 constexpr double kCorridorWidthM = 2.0;  // south of both
 constexpr double kDoorwayM = 1.15;
 constexpr double kDoorXM = 0.5 * kRoomM;
@@ -93,7 +93,7 @@ void AddTwinShell(Mesh& mesh) {
   const std::size_t triangles = mesh.triangles.size();
   std::vector<std::uint32_t> twin_of(vertices, 0);
   for (std::size_t i = 0; i < vertices; ++i) {
-    if (mesh.positions[i].y() < -0.5 * kWallThicknessM) continue;
+    if (static_cast<double>(mesh.positions[i].y()) < -0.5 * kWallThicknessM) continue;
     twin_of[i] = static_cast<std::uint32_t>(mesh.positions.size());
     const Eigen::Vector3f moved =
         mesh.positions[i] + Eigen::Vector3f(static_cast<float>(kTwinShiftM), 0.0F, 0.0F);
@@ -125,24 +125,29 @@ void AddTwins(Scene& scene, std::size_t first, std::size_t end) {
 CameraMotion Visits(const StoryOptions& options) {
   constexpr double kHandHeightM = 1.25;
   constexpr double kPitchRad = -8.0 * kDegree;
-  constexpr double kVisitShare = 0.4;  // of the time, for each room
+  const double visit_share = options.is_short ? 0.3 : 0.36;  // of the time, for each room
   const double whole_s = options.is_short ? kShortTwinsS : kTwinsS;
+  const double leave_s = visit_share * whole_s;
+  const double enter_s = whole_s - leave_s;
   RingWalk ring;
-  ring.center_m = {0.5 * kRoomM, 0.5 * kRoomM + 0.15};
-  ring.radius_m = 0.75;
+  ring.center_m = {0.5 * kRoomM, 0.5 * kRoomM};
+  ring.radius_m = 0.95;
   ring.height_m = kHandHeightM;
   ring.from_deg = -80.0;  // with the door behind
   ring.to_deg = 260.0;
-  ring.lead_deg = 30.0;
-  std::vector<TimedView> views = RingViews(ring, 0.0, kVisitShare * whole_s);
+  ring.lead_deg = 165.0;  // the gaze goes across the room
+  std::vector<TimedView> views = RingViews(ring, 0.0, leave_s);
   const auto add = [&](double share, double x, double y, double yaw_deg) {
-    views.push_back({share * whole_s, {{x, y, kHandHeightM}, yaw_deg * kDegree, kPitchRad}, 0.0});
+    views.push_back({std::lerp(leave_s, enter_s, share),
+                     {{x, y, kHandHeightM}, yaw_deg * kDegree, kPitchRad},
+                     0.0});
   };
-  add(0.44, kDoorXM, 0.4, 280.0);
-  add(0.48, kDoorXM + 0.4, kCorridorYM + 0.2, 340.0);
-  add(0.57, kTwinShiftM + kDoorXM - 0.4, kCorridorYM + 0.1, 365.0);
+  add(0.20, kDoorXM, 0.3, 300.0);
+  add(0.34, kDoorXM + 0.45, kCorridorYM + 0.1, 345.0);
+  add(0.70, kTwinShiftM + kDoorXM - 0.45, kCorridorYM, 370.0);
+  add(0.84, kTwinShiftM + kDoorXM, 0.2, 430.0);
   ring.center_m.x() += kTwinShiftM;
-  for (TimedView view : RingViews(ring, (1.0 - kVisitShare) * whole_s + 0.03 * whole_s, whole_s)) {
+  for (TimedView view : RingViews(ring, enter_s, whole_s)) {
     view.view.yaw_rad += 360.0 * kDegree;
     views.push_back(view);
   }
