@@ -20,7 +20,6 @@ constexpr auto kModels = std::to_array<PackageModel>({
     {PropKind::kChair, kCcBy, "/blendswap-cc-by/plaidChair/plaidChair.obj"},
     {PropKind::kChair, kCc0, "/blendswap-cc-0/chairWithCushion/chairWithCushion.obj"},
     {PropKind::kChair, kCcBy, "/blendswap-cc-by/ella_chair_f/ella_chair_f.obj"},
-    {PropKind::kChair, kCc0, "/blendswap-cc-0/antiqueChair/antiqueChair.obj"},
     {PropKind::kChair, kScopia, "/scopia/chair4/chair4.obj"},
     {PropKind::kArmchair, kScopia, "/scopia/armchair/armchair.obj", 0.0, 1.2, {}, "sillon_ref"},
     {PropKind::kArmchair,
