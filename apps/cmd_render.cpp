@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -57,9 +57,13 @@ std::string WhyNotFinite(const std::string& text) {
   return is_number && std::isfinite(value) ? "" : fmt::format("'{}' is not a number", text);
 }
 
-// Conversion to an unsigned number would wrap it around.
-std::string WhyNegative(const std::string& text) {
-  return text.starts_with("-") ? fmt::format("'{}' is negative", text) : "";
+// Conversion to an unsigned number would wrap negative ones around and cut off large ones.
+std::string WhyNoSeed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc() && rest == end) return "";
+  return fmt::format("'{}' is no whole number from 0 to 2^64 - 1", text);
 }
 
 void AddStoryOptions(CLI::App& app, RenderRequest& request) {
@@ -77,7 +81,7 @@ void AddStoryOptions(CLI::App& app, RenderRequest& request) {
          "As such a sensor sees (that of the sequence unless told); off: exact")
       ->check(CLI::IsMember({"off", "kinect", "d435i"}));
   app.add_option("--seed", request.seed, "Other textures, things, small movements and noise")
-      ->check(CLI::Validator(WhyNegative, "", "not negative"))
+      ->check(CLI::Validator(WhyNoSeed, "", "seed"))
       ->capture_default_str();
   app.add_flag("--short", request.is_short, "The same story within 40 s");
 }

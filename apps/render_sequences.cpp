@@ -74,10 +74,11 @@ int NumCores() {
 void CheckFolders(const std::vector<Task>& tasks, const RenderArguments& arguments) {
   double needed_bytes = 0.0;
   for (const Task& task : tasks) {
-    if (arguments.existing != ExistingFolder::kResume)
-      CheckSequenceFolder(task.folder, RenderRecord{}, arguments.existing);
-    const double existing_bytes =
-        arguments.existing == ExistingFolder::kRefuse ? 0.0 : BytesIn(task.folder);
+    // Whether a rendering's parameters are the same is asked later, when they are all known.
+    const bool must_be_free = arguments.existing == ExistingFolder::kRefuse;
+    CheckSequenceFolder(task.folder, RenderRecord{},
+                        must_be_free ? ExistingFolder::kRefuse : ExistingFolder::kReplace);
+    const double existing_bytes = must_be_free ? 0.0 : BytesIn(task.folder);
     needed_bytes += std::max(0.0, EstimatedBytes(task.entry, arguments.request) - existing_bytes);
   }
   CheckFreeSpace(arguments.folder, needed_bytes);

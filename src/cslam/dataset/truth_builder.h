@@ -10,6 +10,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace cslam {
 constexpr double kBodyRateHz = 10.0;
 // Between resting places nearer than this (and turned less) nothing has changed.
 constexpr double kMinMoveM = 0.01;
-constexpr double kMinTurnRad = 0.02;
+constexpr double kMinTurnRad = std::numbers::pi / 180.0;
 // A removal and an addition of another class at most so far apart are one replacement.
 constexpr double kReplaceDistanceM = 0.5;
 
