@@ -82,10 +82,17 @@ class Converter:
         return self.weights.get(name.split(":")[0])
 
     def value(self, name):
+        """The tensor of that name, padding perhaps still to come."""
         name = name.split(":")[0]
         if name not in self.values:
             self.values[name] = self.emit(self.nodes[name])
         return self.values[name]
+
+    def plain_value(self, name):
+        value = self.value(name)
+        if any(value.pads):
+            raise ConversionError(f"'{name}' is padded for something else than a convolution")
+        return value
 
     def add_node(self, kind, inputs, name, **attributes):
         self.onnx_nodes.append(helper.make_node(kind, inputs, [name], name=name, **attributes))
@@ -120,7 +127,7 @@ class Converter:
         return value.like(layout=result)
 
     def emit_pad(self, node):
-        value = self.value(node["input"][0])
+        value = self.plain_value(node["input"][0])
         pads = self.constant(node["input"][1])
         rows, columns = (pads[2], pads[3]) if value.layout == "NCHW" else (pads[1], pads[2])
         if int(np.sum(pads)) != int(np.sum(rows) + np.sum(columns)):
@@ -153,7 +160,7 @@ class Converter:
     def emit_add(self, node):
         constants = [self.constant(name) for name in node["input"]]
         if constants[0] is None and constants[1] is None:
-            a, b = (self.value(name) for name in node["input"])
+            a, b = (self.plain_value(name) for name in node["input"])
             self.add_node("Add", [a.name, b.name], node["name"])
             return a.like(name=node["name"])
         data = self.value(node["input"][0 if constants[0] is None else 1])
@@ -165,13 +172,13 @@ class Converter:
         return data
 
     def emit_leaky_relu(self, node):
-        value = self.value(node["input"][0])
+        value = self.plain_value(node["input"][0])
         self.add_node("LeakyRelu", [value.name], node["name"],
                       alpha=float(node["attr"]["alpha"]["f"]))
         return value.like(name=node["name"])
 
     def emit_concat(self, node):
-        values = [self.value(name) for name in node["input"][:-1]]
+        values = [self.plain_value(name) for name in node["input"][:-1]]
         axis = int(self.constant(node["input"][-1]))
         if axis != 1 or any(v.layout != "NCHW" for v in values):
             raise ConversionError(f"'{node['name']}' does not join channels")
@@ -188,7 +195,7 @@ class Converter:
 
     def emit_resize(self, node):
         """By two, up or down. Half-pixel bilinear down by two is the mean of 2 x 2."""
-        value = self.value(node["input"][0])
+        value = self.plain_value(node["input"][0])
         height = int(self.constant(node["input"][1])[0])
         old_height = self.input_height() // value.stride
         if not node["attr"]["half_pixel_centers"]["b"] or node["attr"]["align_corners"]["b"]:

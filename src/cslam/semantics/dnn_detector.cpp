@@ -8,6 +8,7 @@
 #include "cslam/util/check.h"
 
 #include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -23,6 +24,18 @@ namespace cslam {
 namespace {
 
 constexpr int kNumChannels = 3;
+
+// OpenCV prints several lines of its own for what becomes one Error here.
+class QuietOpenCv {
+ public:
+  QuietOpenCv() : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
+  ~QuietOpenCv() { cv::utils::logging::setLogLevel(level_); }
+  QuietOpenCv(const QuietOpenCv&) = delete;
+  QuietOpenCv& operator=(const QuietOpenCv&) = delete;
+
+ private:
+  cv::utils::logging::LogLevel level_;
+};
 
 // On one line.
 std::string Reason(const cv::Exception& error) {
@@ -114,6 +127,7 @@ struct DnnDetector::Network {
 DnnDetector::DnnDetector(ModelDescription model, int num_threads)
     : model_(std::move(model)), network_(std::make_unique<Network>()) {
   cv::setNumThreads(num_threads);
+  const QuietOpenCv quiet;
   network_->net = ReadNetwork(model_);
   network_->output_names = network_->net.getUnconnectedOutLayersNames();
   RgbdFrame grey;  // whatever does not fit shows now, not in the middle of a run
