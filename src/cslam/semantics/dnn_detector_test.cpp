@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/semantics/dnn_detector.h"
 
-#include "cslam/semantics/make_detector.h"
-#include "cslam/semantics/model_store.h"
 #include "cslam/semantics/test_network.h"
 #include "cslam/util/check.h"
 #include "cslam/util/test_folder.h"
@@ -11,6 +9,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace cslam {
 namespace {

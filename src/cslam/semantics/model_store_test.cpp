@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/semantics/model_store.h"
 
+#include "cslam/io/truth_files.h"
 #include "cslam/semantics/make_detector.h"
 #include "cslam/util/check.h"
 #include "cslam/util/test_folder.h"
@@ -106,6 +107,29 @@ TEST(MakeDetector, RefusesWhatItDoesNotKnowOrCannotCombine) {
   EXPECT_EQ(MakeDetector(options).detector->info().kind, "none");
   options.detections = "d.json";
   EXPECT_THAT(MessageOf([&] { MakeDetector(options); }), HasSubstr("is for detector 'recorded'"));
+}
+
+TEST(MakeDetector, ReadsRecordedDetectionsFromTheirFile) {
+  const TestFolder folder;
+  DetectionRecord record{.sequence = "walking", .width_px = 64, .height_px = 48, .frames = {}};
+  record.frames.push_back({Stamp{1'000'000'000}, {}});
+  record.frames[0].detections.push_back(
+      {.instance = 1, .class_id = 0, .score = 1.0, .box = {10, 10, 20, 40}, .visible_px = 300});
+  WriteDetections(folder / "detections.json", record);
+  DetectorOptions options;
+  options.kind = "recorded";
+  options.detections = (folder / "detections.json").string();
+  const MadeDetector made = MakeDetector(options);
+  EXPECT_EQ(made.warning, "");
+  EXPECT_EQ(made.detector->info().source, options.detections);
+  RgbdFrame frame;
+  frame.stamp = Stamp{1'000'000'000};
+  frame.gray = cv::Mat(48, 64, CV_8UC1);
+  const Detections found = made.detector->Detect(frame);
+  ASSERT_EQ(found.objects.size(), 1U);
+  EXPECT_EQ(found.objects[0].box, (Box{10, 10, 20, 40}));
+  options.detections = (folder / "none.json").string();
+  EXPECT_THAT(MessageOf([&] { MakeDetector(options); }), HasSubstr("none.json"));
 }
 
 }  // namespace
