@@ -33,7 +33,7 @@ struct HandTremor {
 CameraMotion HandheldMotion(std::vector<TimedView> views, double rounding_s,
                             const HandTremor& tremor);
 
-// The camera motions of TUM's fr3 recordings, around `home`. `mean_speed`s are theirs.
+// The camera motions of TUM's fr3 recordings, around `home`.
 CameraMotion StaticHand(const PathKey& home, double duration_s, std::uint64_t seed);
 // Along the axes, in a cube of about 0.8 m, at 0.2 m/s.
 CameraMotion XyzHand(const PathKey& home, double duration_s, double mean_speed_m_s,
