@@ -5,6 +5,7 @@
 #include "cslam/run/progress.h"
 #include "cslam/run/run_summary.h"
 #include "cslam/run/run_writer.h"
+#include "cslam/semantics/make_detector.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/chrono.h>
@@ -40,6 +41,10 @@ struct RunCommand {
   std::size_t from = 0;
   std::optional<std::size_t> frames;
   std::string rate = "max";
+  std::optional<std::string> detector;
+  std::optional<std::string> model;
+  std::optional<std::string> detections;
+  std::optional<std::string> schedule;
   bool is_deterministic = false;
   bool is_strict = false;
 };
@@ -57,7 +62,14 @@ RunSettings SettingsOf(const RunCommand& command) {
 }
 
 SlamOptions OptionsOf(const RunCommand& command) {
-  const SlamOptions options = LoadSlamOptions(command.config);
+  SlamOptions options = LoadSlamOptions(command.config);
+  if (command.detections) {
+    options.detector.detections = *command.detections;
+    options.detector.kind = "recorded";
+  }
+  if (command.model) options.detector.model = *command.model;
+  if (command.detector) options.detector.kind = *command.detector;
+  if (command.schedule) options.detection.schedule = *command.schedule;
   if (command.is_deterministic && options.pipeline.library_threads != 1) {
     throw UsageError(fmt::format(
         "--deterministic runs on one thread, but pipeline.library_threads is {}; leave it at 1",
@@ -71,6 +83,12 @@ DatasetOptions DatasetOptionsOf(const RunCommand& command) {
           .from = command.from,
           .frames = command.frames,
           .is_strict = command.is_strict};
+}
+
+std::string ScheduleName(const SlamOptions& options, const RunSettings& settings) {
+  const bool is_inline = settings.execution == Execution::kInline;
+  return ScheduleOf(options.detection, is_inline) == DetectionSchedule::kLive ? "live"
+                                                                              : "every-frame";
 }
 
 // A folder that is not there yet.
@@ -137,9 +155,12 @@ int Run(const RunCommand& command) {
   const SlamOptions options = OptionsOf(command);
   const auto dataset = OpenDataset(command.sequence, DatasetOptionsOf(command));
   const fs::path folder = command.out.empty() ? DefaultFolder(command.sequence) : command.out;
+  MadeDetector made = MakeDetector(options.detector);
+  if (!made.warning.empty()) spdlog::warn("{}", made.warning);
+  const DetectorInfo detector = made.detector->info();
   PrepareRunFolder(folder);
   Announce(*dataset, folder);
-  const RunOutcome outcome = RunSequence(*dataset, options, settings, nullptr,
+  const RunOutcome outcome = RunSequence(*dataset, options, settings, std::move(made.detector),
                                          MakeListeners(command, *dataset), InterruptRequested);
   const RunTrajectories trajectories = ExtractTrajectories(outcome.result);
   const RunReport report = MakeReport({.version = std::string(Version()),
@@ -147,7 +168,9 @@ int Run(const RunCommand& command) {
                                        .arguments = CommandLineArguments(),
                                        .sequence = command.sequence,
                                        .folder = folder,
-                                       .settings = settings},
+                                       .settings = settings,
+                                       .detector = detector,
+                                       .schedule = ScheduleName(options, settings)},
                                       *dataset, outcome, trajectories);
   std::optional<Error> write_failure;
   try {
@@ -204,6 +227,25 @@ void AddModeArguments(CLI::App& app, RunCommand& command) {
                "One thread for everything: equal input gives equal files");
 }
 
+void AddDetectorArguments(CLI::App& app, RunCommand& command) {
+  app.add_option(
+         "--detector", command.detector,
+         "What finds people and objects: a network (dnn, the default), a file (recorded) or "
+         "nothing (none)")
+      ->check(CLI::IsMember({"dnn", "recorded", "none"}));
+  app.add_option("--model", command.model,
+                 "Network to use: an installed one's name, or its YAML file (see 'model list')")
+      ->type_name("NAME|FILE");
+  app.add_option("--detections", command.detections,
+                 "Detections recorded earlier, in the format of detections.json; implies "
+                 "--detector recorded")
+      ->type_name("FILE");
+  app.add_option("--schedule", command.schedule,
+                 "Wait for each frame's detections (every-frame; the default with "
+                 "--deterministic), or never wait (live; the default otherwise)")
+      ->check(CLI::IsMember({"auto", "every-frame", "live"}));
+}
+
 }  // namespace
 
 CLI::App* AddRunCommand(CLI::App& root, int& exit_code) {
@@ -211,9 +253,11 @@ CLI::App* AddRunCommand(CLI::App& root, int& exit_code) {
   const auto command = std::make_shared<RunCommand>();
   AddInputArguments(*app, *command);
   AddModeArguments(*app, *command);
+  AddDetectorArguments(*app, *command);
   AddConfigArguments(*app, command->config);
   AddExamples(*app, {"run ~/data/rgbd_dataset_freiburg1_desk",
                      "run my_recording --camera d435i --depth-scale 1000 --out runs/mine",
+                     "run my_recording --model nanodet-plus-m --schedule every-frame",
                      "run my_recording --from 100 --frames 200 --deterministic",
                      "run my_recording --rate sensor --set tracking.orb.num_features=1500"});
   app->callback([=, &exit_code] { exit_code = Run(*command); });

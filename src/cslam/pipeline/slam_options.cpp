@@ -23,6 +23,7 @@ void Describe(OptionList& list, SlamOptions& o) {
   list.Group("tracking", o.tracking);
   list.Group("mapping", o.mapping);
   list.Group("detection", o.detection);
+  list.Group("detector", o.detector);
   list.Group("pipeline", o.pipeline);
 }
 

@@ -4,6 +4,7 @@
 
 #include "cslam/mapping/mapper_options.h"
 #include "cslam/pipeline/detection_schedule.h"
+#include "cslam/semantics/detector_options.h"
 #include "cslam/tracking/tracker_options.h"
 
 namespace cslam {
@@ -23,6 +24,7 @@ struct SlamOptions {
   TrackerOptions tracking;
   MapperOptions mapping;
   DetectionOptions detection;
+  DetectorOptions detector;  // for whoever makes the detector that Slam is given
   PipelineOptions pipeline;
 };
 void Describe(OptionList& list, SlamOptions& options);

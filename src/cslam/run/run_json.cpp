@@ -39,6 +39,14 @@ JsonObject ToJson(const HostInfo& host) {
   return json;
 }
 
+JsonObject ToJson(const DetectorInfo& detector) {
+  JsonObject json;
+  json.Add("kind", detector.kind);
+  json.Add("name", detector.name);
+  json.Add("source", detector.source);
+  return json;
+}
+
 JsonObject ToJson(const FrameCounts& frames) {
   JsonObject json;
   json.Add("input", frames.input);
@@ -159,6 +167,8 @@ std::string FormatRunJson(const RunReport& report) {
   json.Add("sequence", identity.sequence.string());
   json.Add("is_deterministic", identity.settings.execution == Execution::kInline);
   json.Add("rate", ToString(identity.settings.rate));
+  json.Add("detector", ToJson(identity.detector));
+  json.Add("schedule", identity.schedule);
   json.AddNull("seed");  // nothing is random so far
   json.Add("was_interrupted", report.was_interrupted);
   json.Add("camera", ToJson(report.camera));
