@@ -40,11 +40,11 @@ SequenceOptions OptionsOf(const SequenceEntry& entry, const RenderRequest& reque
 }
 
 SimulatedSequence MakeSequence(Story story, SequenceOptions options) {
-  options.camera = story.sensor == SensorKind::kD435i
-                       ? MakeD435iCamera(options.width, options.height)
-                       : MakeSimulatedCamera(options.width, options.height);
+  const bool is_d435i = story.sensor == SensorKind::kD435i;
+  options.camera = is_d435i ? MakeD435iCamera(options.width, options.height)
+                            : MakeSimulatedCamera(options.width, options.height);
   options.exposure = std::move(story.exposure);
-  options.shutter_s = kUsualShutterS;
+  options.shutter_s = is_d435i ? kD435iShutterS : kUsualShutterS;
   return {std::move(story.world), std::move(story.camera), options};
 }
 

@@ -23,6 +23,6 @@ cv::Mat ReadDepthImage(const std::filesystem::path& path);
 
 // CV_8UC1, CV_8UC3 (BGR) or CV_16UC1. compression: zlib level 0 to 9 (for colour: none or some). The file appears under its
 // name only when complete.
-void WritePng(const std::filesystem::path& path, const cv::Mat& image, int compression = 4);
+void WritePng(const std::filesystem::path& path, const cv::Mat& image, int compression = 6);
 
 }  // namespace cslam

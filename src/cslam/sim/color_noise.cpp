@@ -44,10 +44,10 @@ std::array<cv::Mat, 3> Patches(cv::Size size, const ColorNoiseOptions& options, 
 }  // namespace
 
 ColorNoiseOptions D435iColorNoise() {
-  return {.sigma = 0.3,
-          .patch_sigma = 1.0,
-          .patch_size_px = 3.0,
-          .softness_px = 0.7,
+  return {.sigma = 0.1,
+          .patch_sigma = 0.8,
+          .patch_size_px = 5.0,
+          .softness_px = 0.8,
           .vignetting = 0.15,
           .exposure = 1.0};
 }

@@ -114,7 +114,7 @@ DepthNoiseOptions D435iDepthNoise() {
   return {.baseline_m = 0.05,
           .disparity_sigma_px = 0.005,
           .patch_sigma_px = 0.08,
-          .patch_size_px = 10.0,
+          .patch_size_px = 14.0,
           .quantum_px = 1.0 / 16.0,
           .unit_m = 0.001,
           .min_depth_m = 0.3,

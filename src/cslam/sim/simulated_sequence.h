@@ -41,8 +41,9 @@ struct SequenceOptions {
   double shutter_s = 0.0;
 };
 
-// What hand-held and robot sequences use.
+// Exposure times as these cameras choose them in a lit room.
 constexpr double kUsualShutterS = 0.008;
+constexpr double kD435iShutterS = 0.012;
 
 // A sequence that is rendered when asked for, frame by frame, in any order, from any thread:
 //
