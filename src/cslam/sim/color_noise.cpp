@@ -46,8 +46,8 @@ std::array<cv::Mat, 3> Patches(cv::Size size, const ColorNoiseOptions& options, 
 ColorNoiseOptions D435iColorNoise() {
   return {.sigma = 0.1,
           .patch_sigma = 0.8,
-          .patch_size_px = 5.0,
-          .softness_px = 0.8,
+          .patch_size_px = 6.0,
+          .softness_px = 0.85,
           .vignetting = 0.15,
           .exposure = 1.0};
 }
