@@ -79,17 +79,29 @@ void CheckFolders(const std::vector<Task>& tasks, const RenderArguments& argumen
     CheckSequenceFolder(task.folder, RenderRecord{},
                         must_be_free ? ExistingFolder::kRefuse : ExistingFolder::kReplace);
     const double existing_bytes = must_be_free ? 0.0 : BytesIn(task.folder);
-    needed_bytes += std::max(0.0, EstimatedBytes(task.entry, arguments.request) - existing_bytes);
+    needed_bytes += std::max(0.0, RoughBytes(task.entry, arguments.request) - existing_bytes);
   }
   CheckFreeSpace(arguments.folder, needed_bytes);
 }
 
-void Announce(const Task& task, const RenderRequest& request) {
+constexpr int kNumSamples = 8;           // enough for 20 % in all sequences there are
+constexpr int kMinFramesToSample = 100;  // shorter ones are done in no time anyway
+
+// Bytes the whole sequence takes, told from a few frames that are rendered into the folder.
+double SampleBytes(const Rendering& rendering, const Task& task, ExistingFolder existing) {
+  PrepareSequenceFolder(task.folder, rendering.record, existing);
+  const double needed_bytes =
+      rendering.sequence.size() * MeasureFrameBytes(rendering.sequence, task.folder, kNumSamples);
+  CheckFreeSpace(task.folder, needed_bytes - BytesIn(task.folder));
+  return needed_bytes;
+}
+
+void Announce(const Task& task, const RenderRequest& request, double needed_bytes) {
   const int num_frames = CountFrames(task.entry, request);
   fmt::print(stderr, "'{}'{}: {} frame{} of {}x{} at {} Hz, about {} in '{}'\n", task.entry.name,
              request.is_short ? " (short form)" : "", num_frames, num_frames == 1 ? "" : "s",
-             request.width, request.height, request.fps,
-             FormatBytes(EstimatedBytes(task.entry, request)), task.folder.string());
+             request.width, request.height, request.fps, FormatBytes(needed_bytes),
+             task.folder.string());
   RenderRequest whole = request;
   whole.num_frames = 0;
   if (num_frames > CountFrames(task.entry, whole)) {
@@ -131,16 +143,18 @@ AssetStatus LoadAssets(const std::vector<Task>& tasks, Look wish) {
 }
 
 // Turns what ends a rendering into a line that says how to go on.
-WriteOutcome Write(const Rendering& rendering, const Task& task, const RenderArguments& arguments) {
+WriteOutcome Write(const Rendering& rendering, const Task& task, const RenderArguments& arguments,
+                   ExistingFolder existing) {
   std::optional<ProgressBar> bar;
   std::stop_source stop;
   WriteSequenceOptions options;
   options.jobs = arguments.jobs > 0 ? arguments.jobs : NumCores();
-  options.existing = arguments.existing;
+  options.existing = existing;
   options.stop = stop.get_token();
   options.progress = [&](int done, int total) {
     if (!bar) {
-      if (done > 0) fmt::print(stderr, "{} of {} frames are there already\n", done, total);
+      if (arguments.existing == ExistingFolder::kResume)
+        fmt::print(stderr, "{} of {} frames are there already\n", done, total);
       bar.emplace("rendering", total, done);
     }
     bar->Update(done);
@@ -155,12 +169,20 @@ WriteOutcome Write(const Rendering& rendering, const Task& task, const RenderArg
 }
 
 int Render(const Task& task, const RenderArguments& arguments, const AssetStatus& assets) {
-  Announce(task, arguments.request);
   const Stage stage{*assets.props, assets.folder ? &*assets.folder : nullptr};
   Rendering rendering = MakeRendering(task.entry, arguments.request, stage);
   rendering.record.program = fmt::format("changing-slam {} ({})", Version(), GitCommit());
   rendering.record.command = CommandOf(rendering.record);
-  if (Write(rendering, task, arguments) == WriteOutcome::kComplete) return kExitOk;
+  ExistingFolder existing = arguments.existing;
+  double needed_bytes = RoughBytes(task.entry, arguments.request);
+  const bool may_be_complete =
+      existing == ExistingFolder::kResume && std::filesystem::exists(task.folder / kCameraFile);
+  if (rendering.sequence.size() >= kMinFramesToSample && !may_be_complete) {
+    needed_bytes = SampleBytes(rendering, task, existing);
+    existing = ExistingFolder::kResume;
+  }
+  Announce(task, arguments.request, needed_bytes);
+  if (Write(rendering, task, arguments, existing) == WriteOutcome::kComplete) return kExitOk;
   fmt::print(stderr, "interrupted; the frames that are done are kept, --resume goes on\n");
   return kExitInterrupted;
 }

@@ -43,7 +43,8 @@ Rendering MakeRendering(const SequenceEntry& entry, const RenderRequest& request
 // The command line that renders it again, into "DIR".
 std::string CommandOf(const RenderRecord& record);
 
-// Bytes on disk (all files), within 20 % for the sequences there are.
-double EstimatedBytes(const SequenceEntry& entry, const RenderRequest& request);
+// Bytes on disk before anything is rendered. Only rough, since what there is to see and the look
+// matter: within a factor of two.
+double RoughBytes(const SequenceEntry& entry, const RenderRequest& request);
 
 }  // namespace cslam

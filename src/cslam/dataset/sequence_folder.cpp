@@ -140,4 +140,11 @@ bool IsFrameComplete(const fs::path& folder, Stamp stamp) {
   });
 }
 
+double FrameBytes(const fs::path& folder, Stamp stamp) {
+  double bytes = 0.0;
+  for (const std::string_view kind : kImageKinds)
+    bytes += static_cast<double>(fs::file_size(folder / ImageName(kind, stamp)));
+  return bytes;
+}
+
 }  // namespace cslam

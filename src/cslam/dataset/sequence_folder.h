@@ -35,4 +35,7 @@ void CheckSequenceFolder(const std::filesystem::path& folder, const RenderRecord
 // Whether all three images of a frame are there from first to last byte.
 bool IsFrameComplete(const std::filesystem::path& folder, Stamp stamp);
 
+// Size of these images.
+double FrameBytes(const std::filesystem::path& folder, Stamp stamp);
+
 }  // namespace cslam

@@ -139,6 +139,20 @@ WriteOutcome WriteSequence(const SimulatedSequence& sequence, const RenderRecord
   return WriteOutcome::kComplete;
 }
 
+double MeasureFrameBytes(const SimulatedSequence& sequence, const std::filesystem::path& folder,
+                         int count) {
+  CSLAM_CHECK(count >= 1, "{} samples", count);
+  const int num_samples = std::min(count, sequence.size());
+  double bytes = 0.0;
+  for (int k = 0; k < num_samples; ++k) {
+    const int i = (2 * k + 1) * sequence.size() / (2 * num_samples);
+    const Stamp stamp = sequence.stamp(i);
+    if (!IsFrameComplete(folder, stamp)) WriteFrame(sequence, folder, i);
+    bytes += FrameBytes(folder, stamp);
+  }
+  return bytes / num_samples;
+}
+
 WriteOutcome WriteSequence(const SimulatedSequence& sequence, const std::filesystem::path& folder,
                            const WriteSequenceOptions& options) {
   return WriteSequence(sequence, DescribeSequence(sequence, "simulated"), folder, options);

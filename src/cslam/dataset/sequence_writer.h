@@ -33,7 +33,12 @@ WriteOutcome WriteSequence(const SimulatedSequence& sequence, const RenderRecord
                            const std::filesystem::path& folder,
                            const WriteSequenceOptions& options);
 
-// The same for a sequence of no name.
+// Bytes of a frame's images on disk, the mean of `count` frames evenly spread over the sequence.
+// Renders those that folder, which PrepareSequenceFolder() has made ready, does not hold yet.
+double MeasureFrameBytes(const SimulatedSequence& sequence, const std::filesystem::path& folder,
+                         int count);
+
+// WriteSequence() for a sequence of no name.
 WriteOutcome WriteSequence(const SimulatedSequence& sequence, const std::filesystem::path& folder,
                            const WriteSequenceOptions& options);
 

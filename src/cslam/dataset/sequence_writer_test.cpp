@@ -220,6 +220,24 @@ TEST(WriteSequence, NamesTheFolderItCannotMake) {
   EXPECT_NE(message.find("file/out"), std::string::npos) << message;
 }
 
+TEST(MeasureFrameBytes, RendersAFewFramesThatTheSequenceThenKeeps) {
+  const TestFolder folder;
+  const SimulatedSequence& sequence = TinySequence();
+  WriteSequence(sequence, folder / "whole", {});
+  double bytes = 0.0;
+  for (const int i : {1, 3})
+    bytes += FrameBytes(folder / "whole", sequence.stamp(i)) / 2.0;
+  PrepareSequenceFolder(folder / "out", DescribeSequence(sequence, "simulated"),
+                        ExistingFolder::kRefuse);
+  EXPECT_EQ(MeasureFrameBytes(sequence, folder / "out", 2), bytes);
+  std::vector<int> done;
+  WriteSequence(
+      sequence, folder / "out",
+      {.existing = ExistingFolder::kResume, .progress = [&](int i, int) { done.push_back(i); }});
+  EXPECT_EQ(done.front(), 2);
+  EXPECT_EQ(AllFiles(folder / "out"), AllFiles(folder / "whole"));
+}
+
 TEST(WriteSequence, LeavesNoCompleteFolderWhenStopped) {
   const TestFolder folder;
   WriteAPart(folder / "out");
