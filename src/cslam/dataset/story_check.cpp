@@ -3,12 +3,14 @@
 #include "cslam/dataset/story_check.h"
 
 #include "cslam/dataset/story_views.h"
+#include "cslam/dataset/truth_builder.h"
 #include "cslam/dataset/truth_lookup.h"
 #include "cslam/util/check.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cslam {
 namespace {
@@ -26,7 +28,7 @@ class StoryChecker {
  public:
   StoryChecker(const CheckFrames& frames, const SequenceTruth& truth,
                const StoryCheckOptions& options)
-      : objects_(*truth.objects), options_(options), views_(frames, truth, options) {}
+      : objects_(*truth.objects), changes_(*truth.changes), views_(frames, truth, options) {}
 
   ChangeEvidence Judge(const TrueChange& change) const {
     ChangeEvidence evidence{.change = change,
@@ -50,7 +52,7 @@ class StoryChecker {
     const std::size_t end = views_.FirstFrameAt(SpanOf(change.instance, change.time_s).from_s);
     if (change.kind != ChangeKind::kAdded) return views_.Showing(change.instance, 0, end);
     if (!change.to) return {};
-    return views_.LookingThrough(change.instance, *change.to, 0, end);
+    return views_.SeeingEmpty(change.instance, *change.to, 0, end);
   }
 
   std::vector<std::size_t> ViewsAfter(const TrueChange& change) const {
@@ -59,13 +61,28 @@ class StoryChecker {
       case ChangeKind::kReplaced:
         return views_.Showing(change.new_instance, begin, views_.size());
       case ChangeKind::kRemoved:
-        if (!change.from) return {};
-        return views_.LookingThrough(change.instance, *change.from, begin, views_.size());
+        return ViewsOfLeftPlace(change, begin);
       case ChangeKind::kMoved:
       case ChangeKind::kAdded:
         return views_.Showing(change.instance, begin, views_.size());
     }
     return {};
+  }
+
+  std::vector<std::size_t> ViewsOfLeftPlace(const TrueChange& change, std::size_t begin) const {
+    if (!change.from) return {};
+    auto views = views_.SeeingEmpty(change.instance, *change.from, begin, views_.size());
+    // A new thing may stand before the place: it tells the same.
+    for (const TrueChange& other : changes_.changes) {
+      const bool has_come = other.kind == ChangeKind::kAdded || other.kind == ChangeKind::kReplaced;
+      if (!views.empty() || !has_come || !other.to) continue;
+      const double distance_m = (other.to->translation - change.from->translation).norm();
+      const bool is_same_time = std::abs(other.time_s - change.time_s) <= kSameTimeS;
+      if (!is_same_time || distance_m > kReplaceDistanceM) continue;
+      const bool is_added = other.kind == ChangeKind::kAdded;
+      views = views_.Showing(is_added ? other.instance : other.new_instance, begin, views_.size());
+    }
+    return views;
   }
 
   bool IsInView(const TrueChange& change) const {
@@ -100,7 +117,7 @@ class StoryChecker {
   }
 
   const TrueObjects& objects_;
-  const StoryCheckOptions& options_;
+  const TrueChanges& changes_;
   StoryViews views_;
 };
 
@@ -117,7 +134,9 @@ void Judge(StoryEvidence& evidence, ChangeEvidence& change, const TrueObjects& o
   const std::string name = NameOfChange(objects, change.change);
   const bool is_added = change.change.kind == ChangeKind::kAdded;
   const bool is_removed = change.change.kind == ChangeKind::kRemoved;
-  if (change.is_in_view_when_it_happens && !change.change.is_carried_in_view) {
+  const bool is_carried = change.change.is_carried_in_view;
+  if (change.is_in_view_when_it_happens && is_carried) return;  // seen all along
+  if (change.is_in_view_when_it_happens) {
     change.problem = fmt::format("{}: the camera sees it happen", name);
   } else if (change.num_views_before == 0) {
     if (is_added) {

@@ -56,9 +56,10 @@ struct StoryEvidence {
 };
 
 // Proves of each change that the object was in view before it and is in view after it (of one
-// removed: that the camera looks through the place where it was), and that it happens out of view
-// unless the change is said to be carried in view; and measures the people. Needs objects and
-// changes; detections spare it opening most instance images.
+// removed: that its place is in view, empty, taken by something else, or where a new object came
+// to stand at that time), and that it happens out of view. A change said to be carried in view may
+// be seen instead. Measures the people, too. Needs objects and changes; detections spare it opening
+// most instance images.
 StoryEvidence CheckStory(const CheckFrames& frames, const SequenceTruth& truth,
                          const StoryCheckOptions& options);
 

@@ -7,6 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+
 namespace cslam {
 namespace {
 
@@ -68,6 +71,14 @@ TEST(CheckStory, LetsThingsBeCarriedInView) {
   EXPECT_THAT(CheckStory(ExactStory().frames, truth, {}).errors, IsEmpty());
 }
 
+TEST(CheckStory, DoesNotAskForMoreOfWhatIsSeenOnItsWay) {
+  SequenceTruth truth = ChairMovesAt(0.0);
+  truth.changes->changes[0].is_carried_in_view = true;
+  const StoryEvidence evidence = CheckStory(ExactStory().frames, truth, {});
+  EXPECT_EQ(evidence.changes[0].num_views_before, 0U);
+  EXPECT_THAT(evidence.errors, IsEmpty());
+}
+
 TEST(CheckStory, MissesAnObjectThatIsNeverInViewBefore) {
   SequenceTruth truth = ChairMovesAt(3.0);
   for (std::size_t i = 0; i < 30; ++i) {
@@ -76,6 +87,45 @@ TEST(CheckStory, MissesAnObjectThatIsNeverInViewBefore) {
   }
   EXPECT_THAT(CheckStory(ExactStory().frames, truth, {}).errors,
               ElementsAre(HasSubstr("never in view before")));
+}
+
+TEST(CheckStory, TakesWhatStandsInThePlaceNowForProof) {
+  // Where the bear was, a chair is painted over the wall and in front of it.
+  MemoryFrames frames = ExactStory().frames.Copy();
+  SequenceTruth truth = ExactStory().truth;
+  truth.changes->changes = {truth.changes->changes[1]};
+  const TrueObject& bear = truth.objects->objects[test::kBear - 1];
+  for (std::size_t i = 30; i < frames.size(); ++i) {
+    const Se3 T_camera_world = frames.poses[i]->Inverse();
+    for (double x = -0.15; x <= 0.15; x += 0.01) {
+      for (double z = 0.02; z <= 0.48; z += 0.01) {
+        const Eigen::Vector3d p = T_camera_world * (bear.intervals[0].poses[0].T_world_object *
+                                                    Eigen::Vector3d(x, -0.14, z));
+        if (p.z() < 0.5) continue;
+        const Eigen::Vector2d uv = Project(frames.camera(), p);
+        if (uv.x() < 0 || uv.y() < 0 || uv.x() > 158 || uv.y() > 118) continue;
+        const cv::Point pixel(static_cast<int>(std::lround(uv.x())),
+                              static_cast<int>(std::lround(uv.y())));
+        frames.depths_m[i].at<float>(pixel) = static_cast<float>(p.z());
+        frames.instances[i].at<std::uint16_t>(pixel) = kChair;
+      }
+    }
+  }
+  EXPECT_THAT(CheckStory(frames, truth, {}).errors, IsEmpty());
+  frames.instances.clear();
+  EXPECT_THAT(CheckStory(frames, truth, {}).errors, ElementsAre(HasSubstr("empty place")));
+}
+
+TEST(CheckStory, TakesWhatCameToStandBeforeThePlaceForProof) {
+  SequenceTruth truth = ExactStory().truth;
+  TrueChange box_goes =
+      test::Change(ChangeKind::kRemoved, test::kBox, kNoClass, Standing(-0.2, 2.5, 0.0), {});
+  truth.changes->changes = {box_goes};
+  EXPECT_EQ(CheckStory(ExactStory().frames, truth, {}).errors.size(), 1U);
+  TrueChange umbrella_comes =
+      test::Change(ChangeKind::kAdded, test::kUmbrella, 25, {}, Standing(0.0, 2.1, 0.0));
+  truth.changes->changes = {box_goes, umbrella_comes};
+  EXPECT_THAT(CheckStory(ExactStory().frames, truth, {}).errors, IsEmpty());
 }
 
 // A story whose end is not rendered: the camera never looks back.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kGrid = 5;                  // points along each side of a box
 constexpr double kInnerShare = 0.8;       // of the box that they fill: depth bleeds at its faces
-constexpr double kMinThroughShare = 0.6;  // of the points, all in the picture and looked through
+constexpr double kMinThroughShare = 0.6;  // of the points, all in the picture and proven empty
 constexpr double kMinBehindM = 0.03;      // depth beyond a point by less may still be the object
 constexpr double kMinDepthM = 0.1;        // nearer points are not projected
 
@@ -103,8 +103,8 @@ std::vector<std::size_t> StoryViews::Showing(int instance, std::size_t begin,
   return candidates;
 }
 
-std::vector<std::size_t> StoryViews::LookingThrough(int instance, const Se3& T_world_object,
-                                                    std::size_t begin, std::size_t end) const {
+std::vector<std::size_t> StoryViews::SeeingEmpty(int instance, const Se3& T_world_object,
+                                                 std::size_t begin, std::size_t end) const {
   const std::vector<Eigen::Vector3d> points = PointsIn(instance, T_world_object);
   if (points.empty()) return {};
   std::vector<std::size_t> candidates;
@@ -112,7 +112,8 @@ std::vector<std::size_t> StoryViews::LookingThrough(int instance, const Se3& T_w
     if (MaySee(i, points)) candidates.push_back(i);
   }
   candidates = Pick(candidates, options_.max_images);
-  std::erase_if(candidates, [&](std::size_t i) { return !SeesThrough(i, points); });
+  std::erase_if(candidates,
+                [&](std::size_t i) { return !SeesEmpty(i, instance, T_world_object, points); });
   return candidates;
 }
 
@@ -143,21 +144,31 @@ bool StoryViews::MaySee(std::size_t frame, const std::vector<Eigen::Vector3d>& p
   return static_cast<double>(count) >= kMinThroughShare * static_cast<double>(points.size());
 }
 
-bool StoryViews::SeesThrough(std::size_t frame, const std::vector<Eigen::Vector3d>& points) const {
+bool StoryViews::SeesEmpty(std::size_t frame, int instance, const Se3& T_world_object,
+                           const std::vector<Eigen::Vector3d>& points) const {
   const std::optional<Se3> T_world_camera = frames_.T_world_camera(frame);
   const cv::Mat depth_m = frames_.DepthM(frame);
-  if (!T_world_camera || depth_m.empty()) return false;
+  const TrueObject* object = FindObject(*truth_.objects, instance);
+  if (!T_world_camera || depth_m.empty() || object == nullptr) return false;
+  cv::Mat instances = frames_.has_instances() ? frames_.Instances(frame) : cv::Mat();
+  if (instances.size() != depth_m.size()) instances.release();
   const Se3 T_camera_world = T_world_camera->Inverse();
-  std::size_t num_through = 0;
+  // Something else that now stands in the place is as good a proof as a look through it.
+  const auto is_taken = [&](const Eigen::Vector3d& p, const cv::Point& pixel, double z_m) {
+    if (instances.empty() || instances.at<std::uint16_t>(pixel) == instance) return false;
+    const Eigen::Vector3d p_seen = *T_world_camera * Eigen::Vector3d(p * (z_m / p.z()));
+    return z_m > 0.0 && DistanceToBox(*object, T_world_object, p_seen) <= kMinBehindM;
+  };
+  std::size_t num_empty = 0;
   for (const Eigen::Vector3d& p_world : points) {
     const Eigen::Vector3d p = T_camera_world * p_world;
     const std::optional<cv::Point> pixel = PixelOf(frames_.camera(), p);
     if (!pixel) continue;
     const auto z_m = static_cast<double>(depth_m.at<float>(*pixel));
     const double margin_m = std::max(kMinBehindM, 2.0 * options_.tolerance.At(p.z()));
-    if (z_m > p.z() + margin_m) ++num_through;
+    if (z_m > p.z() + margin_m || is_taken(p, *pixel, z_m)) ++num_empty;
   }
-  return static_cast<double>(num_through) >= kMinThroughShare * static_cast<double>(points.size());
+  return static_cast<double>(num_empty) >= kMinThroughShare * static_cast<double>(points.size());
 }
 
 }  // namespace cslam

@@ -33,17 +33,18 @@ class StoryViews {
   // Frames begin to end - 1, in order, that show enough of the instance.
   std::vector<std::size_t> Showing(int instance, std::size_t begin, std::size_t end) const;
 
-  // Frames, in order, whose depth reaches through the place where the instance's box would be at
-  // the pose: proof that nothing is there.
-  std::vector<std::size_t> LookingThrough(int instance, const Se3& T_world_object,
-                                          std::size_t begin, std::size_t end) const;
+  // Frames, in order, that prove that the instance is not at the pose: depth reaches through the
+  // place where its box would be, or something else is seen there.
+  std::vector<std::size_t> SeeingEmpty(int instance, const Se3& T_world_object, std::size_t begin,
+                                       std::size_t end) const;
 
  private:
   bool IsRecorded(int instance) const;
   // Points inside the instance's box at the pose, in the world.
   std::vector<Eigen::Vector3d> PointsIn(int instance, const Se3& T_world_object) const;
   bool MaySee(std::size_t frame, const std::vector<Eigen::Vector3d>& points) const;
-  bool SeesThrough(std::size_t frame, const std::vector<Eigen::Vector3d>& points) const;
+  bool SeesEmpty(std::size_t frame, int instance, const Se3& T_world_object,
+                 const std::vector<Eigen::Vector3d>& points) const;
 
   const CheckFrames& frames_;
   const SequenceTruth& truth_;
