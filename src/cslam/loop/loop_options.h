@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/optim/pose_graph.h"
+
+namespace cslam {
+
+class OptionList;
+
+// When measured depth contradicts a loop.
+struct DepthCheckOptions {
+  int keyframes_per_side = 3;
+  // A surface this much nearer than what a keyframe saw there stands in space seen through: the
+  // noise of a structured-light sensor grows with the square of depth (2.5 mm/m^2: twice the
+  // standard deviation of a Kinect), the rest is for poses and edges.
+  double tolerance_m = 0.08;
+  double tolerance_per_m2 = 0.005;
+  double max_contradicted = 0.15;
+  int min_compared = 200;
+};
+void Describe(OptionList& list, DepthCheckOptions& options);
+
+struct EssentialGraphOptions {
+  int min_shared_points = 100;
+  // Of the relative pose of two keyframes that share points: equal for all, so drift is shared out
+  // evenly over the way.
+  double sigma_deg = 0.2;
+  double sigma_m = 0.01;
+  PoseGraphOptions solver;
+};
+void Describe(OptionList& list, EssentialGraphOptions& options);
+
+struct LoopFusionOptions {
+  int keyframes_per_side = 10;
+  double radius_px = 4.0;
+  int match_distance = 50;
+};
+void Describe(OptionList& list, LoopFusionOptions& options);
+
+struct LoopOptions {
+  int max_candidates = 3;
+  int min_keyframes_apart = 10;
+  int min_inliers = 40;
+  double min_spread = 0.25;
+  int confirmations = 3;
+  int max_missed = 2;
+  double agreement_m = 0.10;
+  double agreement_deg = 3.0;
+  double max_drift_m = 0.5;
+  double max_drift_share = 0.1;
+  double max_drift_deg = 10.0;
+  double max_drift_deg_per_m = 2.0;
+  double min_drift_m = 0.01;
+  double min_drift_deg = 0.5;
+  DepthCheckOptions depth_check;
+  EssentialGraphOptions graph;
+  LoopFusionOptions fusion;
+};
+void Describe(OptionList& list, LoopOptions& options);
+
+}  // namespace cslam
