@@ -167,12 +167,12 @@ class OfficeDay {
                                    Facing(take_s + kLiftS, 2.5, 2.95, 90.0),
                                    At(put_s - kLiftS - 1.5, 5.2, 2.8),
                                    Facing(put_s - kLiftS, 5.65, 3.75, 85.0),
-                                   Facing(put_s + 0.3, 5.65, 3.75, 85.0),
-                                   At(put_s + 1.5, 5.45, 2.75),
-                                   At(put_s + 3.2, 4.4, 2.65),
-                                   At(put_s + 5.8, 2.2, 2.75),
-                                   At(put_s + 8.8, 1.4, 4.2),
-                                   At(put_s + 11.0, 1.4, 6.0),
+                                   Facing(put_s + 5.5, 5.65, 3.75, 85.0),
+                                   At(put_s + 6.7, 5.45, 2.75),
+                                   At(put_s + 8.4, 4.4, 2.65),
+                                   At(put_s + 11.4, 2.2, 2.75),
+                                   At(put_s + 14.4, 1.4, 4.2),
+                                   At(put_s + 16.6, 1.4, 6.0),
                                    At(t + 60.0, 1.4, 6.0)};
     const auto walk = Walk(std::move(points), cast_.MotionSeed());
     const auto motion = Carrying(walk, take_s, put_s, kChairLoad);
