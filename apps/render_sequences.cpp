@@ -85,13 +85,14 @@ void CheckFolders(const std::vector<Task>& tasks, const RenderArguments& argumen
 }
 
 constexpr int kNumSamples = 8;           // enough for 20 % in all sequences there are
+constexpr double kOtherBytes = 1.5e6;    // contact sheet, truth files, lists
 constexpr int kMinFramesToSample = 100;  // shorter ones are done in no time anyway
 
 // Bytes the whole sequence takes, told from a few frames that are rendered into the folder.
 double SampleBytes(const Rendering& rendering, const Task& task, ExistingFolder existing) {
   PrepareSequenceFolder(task.folder, rendering.record, existing);
-  const double needed_bytes =
-      rendering.sequence.size() * MeasureFrameBytes(rendering.sequence, task.folder, kNumSamples);
+  const double frame_bytes = MeasureFrameBytes(rendering.sequence, task.folder, kNumSamples);
+  const double needed_bytes = kOtherBytes + rendering.sequence.size() * frame_bytes;
   CheckFreeSpace(task.folder, needed_bytes - BytesIn(task.folder));
   return needed_bytes;
 }

@@ -117,7 +117,12 @@ double RoughBytes(const SequenceEntry& entry, const RenderRequest& request) {
   constexpr double kVgaPixels = 640.0 * 480.0;
   constexpr double kExponent = 0.87;
   const double pixels = static_cast<double>(request.width) * request.height;
-  return CountFrames(entry, request) * kBytesOfVga * std::pow(pixels / kVgaPixels, kExponent);
+  constexpr double kThumbPixels = 320.0 * 240.0;  // of a picture in the contact sheet
+  constexpr double kThumbBytes = 110e3;
+  const int num_frames = CountFrames(entry, request);
+  const double sheet_bytes =
+      std::min(num_frames, 12) * kThumbBytes * std::min(1.0, pixels / kThumbPixels);
+  return sheet_bytes + num_frames * kBytesOfVga * std::pow(pixels / kVgaPixels, kExponent);
 }
 
 }  // namespace cslam
