@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cmd_run.h"
 
+#include "cslam/run/frame_pictures.h"
 #include "cslam/run/progress.h"
 #include "cslam/run/run_summary.h"
 #include "cslam/run/run_writer.h"
@@ -45,6 +46,7 @@ struct RunCommand {
   std::optional<std::string> model;
   std::optional<std::string> detections;
   std::optional<std::string> schedule;
+  std::optional<std::size_t> save_frames;  // every how many; absent: none
   bool is_deterministic = false;
   bool is_strict = false;
 };
@@ -69,6 +71,7 @@ SlamOptions OptionsOf(const RunCommand& command) {
   }
   if (command.model) options.detector.model = *command.model;
   if (command.detector) options.detector.kind = *command.detector;
+  if (command.save_frames) options.tracking.report_keypoints = true;
   if (command.schedule) options.detection.schedule = *command.schedule;
   if (command.is_deterministic && options.pipeline.library_threads != 1) {
     throw UsageError(fmt::format(
@@ -116,13 +119,20 @@ void Announce(const DatasetReader& dataset, const fs::path& folder) {
 }
 
 std::vector<std::shared_ptr<OutputSink>> MakeListeners(const RunCommand& command,
-                                                       const DatasetReader& dataset) {
-  if (!spdlog::should_log(spdlog::level::info)) return {};
+                                                       const DatasetReader& dataset,
+                                                       const fs::path& folder) {
+  std::vector<std::shared_ptr<OutputSink>> listeners;
+  if (command.save_frames) {
+    listeners.push_back(std::make_shared<FramePictures>(dataset, folder / "frames", command.from,
+                                                        *command.save_frames));
+  }
+  if (!spdlog::should_log(spdlog::level::info)) return listeners;
   ProgressOptions options;
   if (isatty(STDERR_FILENO) != 0) options.style = ProgressStyle::kBar;
   options.first_frame = command.from;
   options.num_frames = dataset.size();
-  return {std::make_shared<ProgressSink>(stderr, options)};
+  listeners.push_back(std::make_shared<ProgressSink>(stderr, options));
+  return listeners;
 }
 
 void Warn(const RunReport& report) {
@@ -160,8 +170,9 @@ int Run(const RunCommand& command) {
   const DetectorInfo detector = made.detector->info();
   PrepareRunFolder(folder);
   Announce(*dataset, folder);
-  const RunOutcome outcome = RunSequence(*dataset, options, settings, std::move(made.detector),
-                                         MakeListeners(command, *dataset), InterruptRequested);
+  const RunOutcome outcome =
+      RunSequence(*dataset, options, settings, std::move(made.detector),
+                  MakeListeners(command, *dataset, folder), InterruptRequested);
   const RunTrajectories trajectories = ExtractTrajectories(outcome.result);
   const RunReport report = MakeReport({.version = std::string(Version()),
                                        .commit = std::string(GitCommit()),
@@ -223,6 +234,11 @@ void AddModeArguments(CLI::App& app, RunCommand& command) {
                  "frames that wait too long (sensor)")
       ->check(CLI::IsMember({"max", "sensor"}))
       ->capture_default_str();
+  app.add_option("--save-frames", command.save_frames,
+                 "Write a picture of every N-th frame with its keypoints and objects into "
+                 "DIR/frames")
+      ->type_name("N")
+      ->check(WholeNumberFrom(1));
   app.add_flag("--deterministic", command.is_deterministic,
                "One thread for everything: equal input gives equal files");
 }

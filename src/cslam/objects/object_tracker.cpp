@@ -297,13 +297,14 @@ int ObjectTracker::FindUnknown(const Se3& T_world_camera, int num_inliers) {
   return static_cast<int>(regions.size());
 }
 
-// A new piece of an unknown thing already followed renews it.
+// A new piece of an unknown thing or a person already followed renews it.
 void ObjectTracker::AddUnknown(const DepthRegion& region, const Se3& T_world_camera) {
   const double gap_px = 3.0 * now_.view.step;  // pieces of one thing may lie so far apart
   const Box near{region.box.x_min - gap_px, region.box.y_min - gap_px, region.box.x_max + gap_px,
                  region.box.y_max + gap_px};
   const auto known = std::find_if(objects_.begin(), objects_.end(), [&](const Object& o) {
-    return o.class_id < 0 && !o.region.empty() && !Intersect(o.box, near).empty() &&
+    return (o.class_id < 0 || o.is_person()) && !o.region.empty() &&
+           !Intersect(o.box, near).empty() &&
            std::abs(o.region.median_m - region.median_m) <
                static_cast<float>(options_.unknown.reach_m);
   });
@@ -334,6 +335,9 @@ void ObjectTracker::AddUnknown(const DepthRegion& region, const Se3& T_world_cam
 void ObjectTracker::Forget() {
   constexpr double kBlindS = 0.15;  // a box without any depth lives no longer than this
   std::erase_if(objects_, [&](const Object& object) {
+    const bool was_mistaken =
+        object.class_id < 0 && object.filter && object.filter->motion() == ObjectMotion::kStatic;
+    if (was_mistaken) return true;
     const double age_s = SecondsBetween(now_.stamp, object.detected);
     return age_s >
            (object.region.empty() ? std::min(kBlindS, options_.bridge_s) : options_.bridge_s);
