@@ -72,7 +72,7 @@ TEST(CheckReprojection, KnowsTheKinectsNoise) {
   const ReprojectionResult result =
       CheckReprojection(story.frames, &*story.truth.objects,
                         {.num_anchors = kAnchors,
-                         .tolerance = {.floor_m = 0.001, .per_square = 0.008},
+                         .tolerance = {.floor_m = 0.001, .per_square = 0.006},
                          .window_px = 2});
   EXPECT_GT(result.all.num_points, 10'000U);
   EXPECT_LT(result.all.p95_per_tolerance, 1.0);

@@ -28,9 +28,9 @@ DepthTolerance ToleranceOf(SensorNoise noise) {
     case SensorNoise::kOff:
       return {.floor_m = 0.001, .per_square = 0.0};
     case SensorNoise::kKinect:
-      return {.floor_m = 0.001, .per_square = 0.008};
+      return {.floor_m = 0.001, .per_square = 0.006};
     case SensorNoise::kD435i:
-      return {.floor_m = 0.001, .per_square = 0.016};
+      return {.floor_m = 0.001, .per_square = 0.010};
   }
   return {};
 }

@@ -146,7 +146,7 @@ TEST(CheckTruth, LeavesOutWhatIsNotThere) {
 TEST(CheckTruth, KnowsTheNoise) {
   const test::RenderedStory story = test::RenderStory(SensorNoise::kKinect);
   TruthCheckOptions options{.num_samples = 12,
-                            .tolerance = {.floor_m = 0.001, .per_square = 0.008},
+                            .tolerance = {.floor_m = 0.001, .per_square = 0.006},
                             .max_outside_share = 0.05};
   EXPECT_THAT(CheckTruth(story.frames, story.truth, options).errors, IsEmpty());
 }
