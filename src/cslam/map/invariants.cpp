@@ -38,7 +38,7 @@ std::string CheckPoint(const MapView& map, const MapPoint& point) {
 }
 
 std::string CheckObservations(const MapView& map, const Keyframe& keyframe) {
-  std::map<KeyframeId, int> weights;
+  std::vector<std::int32_t> weights(map.num_keyframe_ids());
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
     if (!keyframe.points[i].valid()) continue;
     const MapPoint* point = map.FindPoint(keyframe.points[i]);
@@ -53,13 +53,16 @@ std::string CheckObservations(const MapView& map, const Keyframe& keyframe) {
                          keyframe.id.value());
     }
     for (const PointObservation& o : point->observations) {
-      if (o.keyframe != keyframe.id) ++weights[o.keyframe];
+      if (o.keyframe != keyframe.id) ++weights[o.keyframe.index()];
     }
   }
   std::vector<CovisibleKeyframe> recounted;
-  recounted.reserve(weights.size());
-  for (const auto& [id, count] : weights)
-    recounted.push_back({id, count});
+  recounted.reserve(keyframe.covisible.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (weights[i] != 0) {
+      recounted.push_back({KeyframeId(static_cast<std::uint32_t>(i)), weights[i]});
+    }
+  }
   if (recounted != keyframe.covisible) {
     return fmt::format("covisibility weights of keyframe {} are off", keyframe.id.value());
   }

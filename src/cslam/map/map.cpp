@@ -6,6 +6,7 @@
 #include "cslam/vision/matching.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace cslam {
 namespace {
@@ -34,6 +35,7 @@ MapView Map::Snapshot() {
   copy.points_ = points_.Share();
   copy.num_keyframes_ = num_keyframes_;
   copy.num_points_ = num_points_;
+  copy.correction_epoch_ = correction_epoch_;
   return copy;
 }
 
@@ -47,6 +49,7 @@ void Map::Clear() {
     keyframes_.Edit(i) = Keyframe{};
   num_keyframes_ = 0;
   num_points_ = 0;
+  AdvanceCorrectionEpoch();
 }
 
 MapPoint& Map::EditPoint(PointId id) {
@@ -204,6 +207,23 @@ void Map::SetPosition(PointId point, const Eigen::Vector3d& p_world) {
 void Map::SetParent(KeyframeId keyframe, KeyframeId parent) {
   CSLAM_CHECK(FindKeyframe(parent) != nullptr);
   EditKeyframe(keyframe).parent = parent;
+}
+
+void Map::MergeMaps(MapId target, MapId source, KeyframeId parent, KeyframeId child) {
+  CSLAM_CHECK(target != source && EditKeyframe(parent).map == target &&
+              EditKeyframe(child).map == source);
+  KeyframeId turned = child;
+  for (KeyframeId new_parent = parent; turned.valid();) {
+    const KeyframeId old_parent = FindKeyframe(turned)->parent;
+    EditKeyframe(turned).parent = new_parent;
+    new_parent = std::exchange(turned, old_parent);
+  }
+  for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+    if (keyframes_[i].map == source) keyframes_.Edit(i).map = target;
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (points_[i].map == source) points_.Edit(i).map = target;
+  }
 }
 
 void Map::AddSightings(PointId point, int expected, int found) {

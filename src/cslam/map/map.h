@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/map/map_contents.h"
 #include "cslam/map/map_view.h"
 
 #include <string>
@@ -15,6 +16,9 @@ namespace cslam {
 class Map : public MapView {
  public:
   explicit Map(std::vector<double> level_scales);
+
+  // A stored map. Throws Error, saying what is wrong, if the contents are not those of a map.
+  explicit Map(MapContents contents);
 
   const std::vector<double>& level_scales() const { return level_scales_; }
 
@@ -51,6 +55,13 @@ class Map : public MapView {
   void SetPose(KeyframeId keyframe, const Se3& T_world_camera);
   void SetPosition(PointId point, const Eigen::Vector3d& p_world);
   void SetParent(KeyframeId keyframe, KeyframeId parent);
+
+  // Everything of source becomes part of target; poses and positions stay. The spanning tree of
+  // source is turned round to begin at child, which becomes a child of target's keyframe parent.
+  void MergeMaps(MapId target, MapId source, KeyframeId parent, KeyframeId child);
+
+  void AdvanceCorrectionEpoch() { ++correction_epoch_; }
+
   void AddSightings(PointId point, int expected, int found);
 
   // Recomputes the descriptor (the medoid of those observed), and what RefreshGeometry() does.

@@ -6,6 +6,7 @@
 #include "cslam/map/map_point.h"
 #include "cslam/util/cow_array.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,14 @@ class MapView {
   std::size_t num_point_ids() const { return points_.size(); }
   std::size_t num_keyframes() const { return num_keyframes_; }  // alive
   std::size_t num_points() const { return num_points_; }        // active
+
+  // Every slot, those of culled keyframes and erased points included: for storing a map.
+  const Keyframe& KeyframeSlot(std::size_t index) const { return keyframes_[index]; }
+  const MapPoint& PointSlot(std::size_t index) const { return points_[index]; }
+
+  // Grows when a correction moves a whole map or all is forgotten: what was worked out on a
+  // snapshot of another epoch must not be applied any more.
+  std::uint32_t correction_epoch() const { return correction_epoch_; }
 
   // Follows fusions; nullopt when the point was erased or never existed.
   std::optional<PointId> Resolve(PointId id) const;
@@ -56,6 +65,7 @@ class MapView {
   CowArray<MapPoint, 64> points_;
   std::size_t num_keyframes_ = 0;
   std::size_t num_points_ = 0;
+  std::uint32_t correction_epoch_ = 0;
   // NOLINTEND(misc-non-private-member-variables-in-classes)
 };
 

@@ -40,6 +40,9 @@ class AtomicFile {
 
   const std::filesystem::path& path() const { return path_; }
 
+  // Where the bytes are until Commit(), for a library that writes the file by itself.
+  const std::filesystem::path& temporary_path() const { return temporary_path_; }
+
  private:
   void Flush();
   void Discard() noexcept;

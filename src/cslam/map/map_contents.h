@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/map/keyframe.h"
+#include "cslam/map/map_point.h"
+
+#include <vector>
+
+namespace cslam {
+
+// Everything a Map holds, slot by slot: index = id, culled keyframes and erased points included.
+// Observations and covisibility are not asked for: Keyframe::points tells them.
+struct MapContents {
+  std::vector<double> level_scales;
+  std::vector<Keyframe> keyframes;
+  std::vector<MapPoint> points;
+};
+
+}  // namespace cslam

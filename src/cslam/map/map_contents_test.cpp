@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/map/map_contents.h"
+
+#include "cslam/map/test_map.h"
+#include "cslam/util/check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace cslam {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const KeyframeId k0(0), k1(1), k2(2);
+
+// Three keyframes and a culled one, points seen by many, one fused, one erased.
+Map MakeTestMap() {
+  Map map(test::kLevelScales);
+  map.AddKeyframe(test::MakeKeyframe(0, 20));
+  map.AddKeyframe(test::MakeKeyframe(1, 20, 1.0, k0));
+  map.AddKeyframe(test::MakeKeyframe(2, 20, 2.0, k1));
+  map.AddKeyframe(test::MakeKeyframe(4, 20, 3.0, k1));
+  for (int i = 0; i < 10; ++i) {
+    const PointId point = map.AddPoint({0.1 * i, 0.0, 3.0}, k0);
+    for (const KeyframeId id : {k0, k1, k2})
+      map.AddObservation(point, id, i);
+    map.RefreshAppearance(point);
+  }
+  const PointId twin = map.AddPoint({0.0, 0.0, 3.0}, k2);
+  map.AddObservation(twin, k2, 15);
+  map.FusePoints(PointId(3), twin);
+  map.ErasePoint(PointId(9));
+  map.CullKeyframe(k1);
+  return map;
+}
+
+MapContents ContentsOf(const Map& map) {
+  MapContents contents{.level_scales = map.level_scales(), .keyframes = {}, .points = {}};
+  for (std::size_t i = 0; i < map.num_keyframe_ids(); ++i)
+    contents.keyframes.push_back(map.KeyframeSlot(i));
+  for (std::size_t i = 0; i < map.num_point_ids(); ++i)
+    contents.points.push_back(map.PointSlot(i));
+  return contents;
+}
+
+std::string MessageFor(const std::function<void(MapContents&)>& damage) {
+  MapContents contents = ContentsOf(MakeTestMap());
+  damage(contents);
+  try {
+    const Map map(std::move(contents));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(MapContents, GiveTheSameMapAgain) {
+  const Map map = MakeTestMap();
+  MapContents contents = ContentsOf(map);
+  for (Keyframe& keyframe : contents.keyframes)
+    keyframe.covisible.clear();
+  for (MapPoint& point : contents.points)
+    point.observations.clear();
+  const Map again(std::move(contents));
+  EXPECT_THAT(again.CheckInvariants(), IsEmpty());
+  EXPECT_EQ(again.num_keyframes(), 3U);
+  EXPECT_EQ(again.num_points(), 9U);
+  EXPECT_EQ(again.num_keyframe_ids(), 5U);
+  EXPECT_EQ(again.num_point_ids(), 11U);
+  EXPECT_EQ(again.Resolve(PointId(10)), PointId(3));
+  EXPECT_EQ(again.Resolve(PointId(9)), std::nullopt);
+  EXPECT_EQ(again.Resolve(k1)->keyframe, k0);
+  EXPECT_EQ(again.FindPoint(PointId(3))->observations, map.FindPoint(PointId(3))->observations);
+  EXPECT_EQ(again.FindKeyframe(k2)->covisible, map.FindKeyframe(k2)->covisible);
+}
+
+TEST(MapContents, AreRefusedWhenIdsLeadNowhere) {
+  EXPECT_THAT(MessageFor([](auto& c) { c.keyframes[0].points[0] = PointId(99); }),
+              HasSubstr("sees point 99"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.keyframes[0].points[0] = PointId(9); }),
+              HasSubstr("which is gone"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.keyframes[2].parent = KeyframeId(99); }),
+              HasSubstr("parent"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.keyframes[1].forward_to = KeyframeId(99); }),
+              HasSubstr("never was"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.points[10].replaced_by = PointId(); }),
+              HasSubstr("never was"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.points[0].reference = KeyframeId(99); }),
+              HasSubstr("belongs to nothing"));
+}
+
+TEST(MapContents, AreRefusedWhenSomethingGoesInACircle) {
+  EXPECT_THAT(MessageFor([](auto& c) { c.points[10].replaced_by = PointId(10); }),
+              HasSubstr("in a circle"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.keyframes[1].forward_to = k1; }),
+              HasSubstr("in a circle"));
+  EXPECT_THAT(MessageFor([](auto& c) {
+                c.keyframes[3].forward_to = k1;
+                c.keyframes[1].forward_to = KeyframeId(3);
+              }),
+              HasSubstr("in a circle"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.keyframes[0].parent = k2; }), HasSubstr("cycle"));
+}
+
+TEST(MapContents, AreRefusedWhenArraysAreUneven) {
+  EXPECT_THAT(MessageFor([](auto& c) { c.keyframes[0].points.pop_back(); }),
+              HasSubstr("unequal length"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.keyframes[0].points[19] = PointId(0); }),
+              HasSubstr("twice"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.level_scales.resize(1); }), HasSubstr("level"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.level_scales.clear(); }), HasSubstr("scales"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.points[0].state = PointState(7); }), HasSubstr("state"));
+}
+
+TEST(MapContents, AreRefusedWhenNumbersAreNone) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(MessageFor([](auto& c) { c.points[0].max_distance_m = kNan; }),
+              HasSubstr("not finite"));
+  EXPECT_THAT(MessageFor([](auto& c) { c.points[0].normal.x() = kNan; }), HasSubstr("not finite"));
+}
+
+}  // namespace
+}  // namespace cslam
