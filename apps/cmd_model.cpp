@@ -161,7 +161,7 @@ void AddInstall(CLI::App& group, int& exit_code) {
 
 void AddList(CLI::App& group, int& exit_code) {
   CLI::App* const app = group.add_subcommand("list", "Show the installed detectors");
-  AddExamples(*app, {"model list"});
+  AddExamples(*app, {"model list", "model info nanodet-g"});
   app->callback([&exit_code] {
     PrintList();
     exit_code = kExitOk;

@@ -67,7 +67,7 @@ std::string WhyNoSeed(const std::string& text) {
 }
 
 void AddStoryOptions(CLI::App& app, RenderRequest& request) {
-  app.add_option("--frames", request.num_frames, "Stop after so many; the whole story unless told")
+  app.add_option("--frames", request.num_frames, "At most so many; the whole story unless told")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--fps", request.fps, "Frames per second; the story takes as long as ever")
       ->check(CLI::Range(0.1, 1000.0) & CLI::Validator(WhyNotFinite, "", "finite"))
@@ -84,6 +84,8 @@ void AddStoryOptions(CLI::App& app, RenderRequest& request) {
       ->check(CLI::Validator(WhyNoSeed, "", "seed"))
       ->capture_default_str();
   app.add_flag("--short", request.is_short, "The same story within 40 s");
+  app.add_flag("--without-people", request.without_people,
+               "Leave people out, to compare with; what they carry moves all the same");
 }
 
 void AddRender(CLI::App& dataset, int& exit_code) {

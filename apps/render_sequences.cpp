@@ -103,11 +103,9 @@ void Announce(const Task& task, const RenderRequest& request, double needed_byte
              request.is_short ? " (short form)" : "", num_frames, num_frames == 1 ? "" : "s",
              request.width, request.height, request.fps, FormatBytes(needed_bytes),
              task.folder.string());
-  RenderRequest whole = request;
-  whole.num_frames = 0;
-  if (num_frames > CountFrames(task.entry, whole)) {
-    const double story_s = request.is_short ? task.entry.short_duration_s : task.entry.duration_s;
-    fmt::print(stderr, "warning: the camera rests after {} s, the end of its path\n", story_s);
+  if (request.num_frames > num_frames) {
+    fmt::print(stderr, "warning: the story ends after {} frame{} at {} Hz; {} were asked for\n",
+               num_frames, num_frames == 1 ? "" : "s", request.fps, request.num_frames);
   }
 }
 

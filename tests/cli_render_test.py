@@ -71,8 +71,12 @@ class RenderTest(RenderTestCase):
         self.render_well("--fps", "10")
         self.assertTrue((self.out / "rgb" / "1.200000.png").exists())
 
-    def test_more_frames_than_the_path_has_are_announced(self):
-        self.assertIn("warning: ", self.render("--fps", "0.1").stderr)
+    def test_more_frames_than_the_story_has_are_not_made(self):
+        result = self.render_well("--fps", "0.1")
+        self.assertIn("warning: the story ends after 2 frames at 0.1 Hz; 3 were asked for",
+                      result.stderr)
+        self.assertEqual(self.read("render.json")["num_frames"], 2)
+        self.assertEqual(len(list((self.out / "rgb").iterdir())), 2)
 
     def test_readme_and_record_tell_how_to_render_it_again(self):
         self.render_well("--seed", "7", "--noise", "off")
@@ -105,6 +109,22 @@ class StoryTest(RenderTestCase):
         frames = self.read("detections.json")["frames"]
         self.assertEqual(len(frames), record["num_frames"])
         self.assertEqual(frames[1]["stamp"], "3.000000")
+
+    def test_people_can_be_left_out(self):
+        options = (*self.OPTIONS, "--frames", "2")
+        depths = []
+        for more in ((), ("--without-people",)):
+            self.out = self.folder / f"out{len(depths)}"
+            self.render_well(*options, *more, name="walking_xyz", size=())
+            depths.append((self.out / "depth" / "1.000000.png").read_bytes())
+            record = self.read("render.json")
+            self.assertEqual(record["without_people"], bool(more))
+            self.assertEqual("--without-people" in record["command"], bool(more))
+            classes = {thing["class_id"] for thing in self.read("objects.json")["objects"]}
+            self.assertEqual(0 in classes, not more)
+        self.assertNotEqual(depths[0], depths[1])
+        check = run("dataset", "check", self.out)
+        self.assertEqual(check.returncode, 0, check.stdout)
 
     def test_several_sequences_go_to_a_folder_each(self):
         result = run("dataset", "render", "static", "demo", "--out", self.out, *self.OPTIONS,
@@ -177,7 +197,7 @@ class OutputFolderTest(RenderTestCase):
         self.assert_one_line_error(self.render(), 1, self.out)
 
     def test_more_than_the_disk_holds_is_refused_at_once(self):
-        result = self.render(size=("--size", "4096x4096", "--frames", "1000000"))
+        result = self.render(name="shift", size=("--size", "4096x4096", "--fps", "1000"))
         self.assert_one_line_error(result, 1, self.out, "free", "needed")
         self.assertFalse(self.out.exists())
 

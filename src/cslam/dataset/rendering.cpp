@@ -13,6 +13,7 @@
 namespace cslam {
 namespace {
 
+constexpr int kPersonClassId = 0;  // COCO
 constexpr double kDemoDurationS = 20.0;
 constexpr SequenceEntry kDemo{
     .name = "demo",
@@ -33,7 +34,7 @@ SequenceOptions OptionsOf(const SequenceEntry& entry, const RenderRequest& reque
   options.width = request.width;
   options.height = request.height;
   options.fps = request.fps;
-  options.num_frames = request.num_frames;
+  options.num_frames = CountFrames(entry, request);
   options.noise = NoiseOf(entry, request);
   options.seed = request.seed;
   return options;
@@ -48,6 +49,10 @@ SimulatedSequence MakeSequence(Story story, SequenceOptions options) {
   return {std::move(story.world), std::move(story.camera), options};
 }
 
+int CountWholeFrames(double duration_s, double fps) {
+  return std::max(1, static_cast<int>(std::floor(duration_s * fps + 1e-9)));
+}
+
 double DurationS(const SequenceEntry& entry, const RenderRequest& request) {
   return request.is_short ? entry.short_duration_s : entry.duration_s;
 }
@@ -60,9 +65,13 @@ std::vector<SequenceEntry> RenderableSequences() {
   return entries;
 }
 
+int CountStoryFrames(const SequenceEntry& entry, const RenderRequest& request) {
+  return CountWholeFrames(DurationS(entry, request), request.fps);
+}
+
 int CountFrames(const SequenceEntry& entry, const RenderRequest& request) {
-  if (request.num_frames > 0) return request.num_frames;
-  return std::max(1, static_cast<int>(std::floor(DurationS(entry, request) * request.fps + 1e-9)));
+  const int num_in_story = CountStoryFrames(entry, request);
+  return request.num_frames > 0 ? std::min(request.num_frames, num_in_story) : num_in_story;
 }
 
 SensorNoise NoiseOf(const SequenceEntry& entry, const RenderRequest& request) {
@@ -77,6 +86,7 @@ Rendering MakeRendering(const SequenceEntry& entry, const RenderRequest& request
     RenderRecord record = DescribeSequence(sequence, std::string(entry.name));
     record.summary = entry.summary;
     record.is_short = request.is_short;
+    record.without_people = request.without_people;
     record.story_duration_s = DurationS(entry, request);
     return record;
   };
@@ -89,7 +99,8 @@ Rendering MakeRendering(const SequenceEntry& entry, const RenderRequest& request
                                    .is_short = request.is_short,
                                    .texels_per_m = TexelsPerM(request.width)});
   const double duration_s = story.camera.duration_s;
-  const PeopleClaim people = story.people;
+  const PeopleClaim people = request.without_people ? PeopleClaim{} : story.people;
+  if (request.without_people) story.world = WithoutClass(std::move(story.world), kPersonClassId);
   SimulatedSequence sequence = MakeSequence(std::move(story), options);
   RenderRecord record = describe(sequence);
   record.look = stage.props.look();
@@ -99,14 +110,13 @@ Rendering MakeRendering(const SequenceEntry& entry, const RenderRequest& request
 }
 
 std::string CommandOf(const RenderRecord& record) {
-  const bool is_whole =
-      record.num_frames ==
-      std::max(1, static_cast<int>(std::floor(record.story_duration_s * record.fps + 1e-9)));
+  const bool is_whole = record.num_frames == CountWholeFrames(record.story_duration_s, record.fps);
   return fmt::format(
       "changing-slam dataset render {} --out DIR --seed {} --fps {} --size {}x{} --noise {} --look "
-      "{}{}{}",
+      "{}{}{}{}",
       record.sequence, record.seed, record.fps, record.width_px, record.height_px,
       NameOf(record.noise), record.look, record.is_short ? " --short" : "",
+      record.without_people ? " --without-people" : "",
       is_whole ? "" : fmt::format(" --frames {}", record.num_frames));
 }
 

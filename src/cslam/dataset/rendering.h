@@ -22,12 +22,14 @@ struct RenderRequest {
   int width = 640;                   // px
   int height = 480;                  // px
   double fps = 30.0;                 // the story is resampled
-  int num_frames = 0;                // 0: the whole story; otherwise it ends there
+  int num_frames = 0;                // 0: the whole story; otherwise at most so many
   std::optional<SensorNoise> noise;  // none: that of the sequence's own sensor
   bool is_short = false;
+  bool without_people = false;  // what they carry moves all the same
 };
 
-// How many frames there will be, before anything is made.
+// How many frames the whole story has, and how many of them are wanted.
+int CountStoryFrames(const SequenceEntry& entry, const RenderRequest& request);
 int CountFrames(const SequenceEntry& entry, const RenderRequest& request);
 SensorNoise NoiseOf(const SequenceEntry& entry, const RenderRequest& request);
 
