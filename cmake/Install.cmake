@@ -41,5 +41,6 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "python3, python3-onnx, python3-nump
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcslam-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libopencv-dev, libeigen3-dev, libceres-dev, libfmt-dev, libspdlog-dev, libyaml-cpp-dev, \
-nlohmann-json3-dev, libembree-dev, libturbojpeg0-dev, libpng-dev, zlib1g-dev, pkg-config")
+nlohmann-json3-dev, libembree-dev, libturbojpeg0-dev, libpng-dev, zlib1g-dev, libsqlite3-dev, \
+pkg-config")
 include(CPack)

@@ -21,6 +21,7 @@ LAYERS = {
     "map": LOW,
     "optim": {"util", "geometry"},
     "io": LOW | {"map"},
+    "atlas_io": LOW | {"map", "io"},
     "eval": LOW | {"map"},
     "sim": LOW | {"map", "io"},
     "assets": LOW | {"map", "io", "sim"},
@@ -32,8 +33,8 @@ LAYERS = {
     "tracking": STAGE,
     "mapping": STAGE,
     "loop": STAGE,
-    "pipeline": STAGE | {"tracking", "mapping", "loop", "io", "eval"},
-    "run": STAGE | {"pipeline", "io", "eval"},
+    "pipeline": STAGE | {"tracking", "mapping", "loop", "io", "atlas_io", "eval"},
+    "run": STAGE | {"pipeline", "io", "atlas_io", "eval"},
     "viewer": STAGE | {"pipeline", "run", "io", "eval"},
 }
 TEST_TOOLS = {"io", "eval", "sim", "assets", "actors", "dataset"}  # tests of any layer may use these
@@ -62,7 +63,8 @@ PRIVATE_LIBRARIES = {
     "ceres/": {"optim"},
     "embree3/": {"sim"},
     "yaml-cpp/": {"io"},
-    "nlohmann/": {"io", "eval", "pipeline"},
+    "sqlite3": {"atlas_io"},
+    "nlohmann/": {"io", "eval", "atlas_io", "pipeline"},
     "CLI/": set(),
     "opencv2/dnn": {"semantics"},
     "opencv2/imgproc": None,  # None: the .cpp files of every folder

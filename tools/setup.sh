@@ -5,7 +5,8 @@
 build_packages=(
   cmake ninja-build g++ pkg-config ccache git
   libopencv-dev libeigen3-dev libceres-dev libtbb-dev libfmt-dev libspdlog-dev libcli11-dev
-  libyaml-cpp-dev nlohmann-json3-dev libembree-dev libturbojpeg0-dev libpng-dev zlib1g-dev)
+  libyaml-cpp-dev nlohmann-json3-dev libembree-dev libturbojpeg0-dev libpng-dev zlib1g-dev
+  libsqlite3-dev)
 test_packages=(libgtest-dev libgmock-dev python3 clang-format)
 
 say() {

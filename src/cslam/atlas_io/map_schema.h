@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+// Private to the writer and the reader of map files.
+namespace cslam {
+
+// In the header of the file, where SQLite leaves room for it: "CSLM".
+inline constexpr std::int32_t kMapApplicationId = 0x43534C4D;
+
+struct MapTable {
+  const char* name;
+  const char* columns;  // as in CREATE TABLE
+  int num_columns;
+};
+
+// Poses, positions and scales have no declared type, so SQLite keeps them bit by bit.
+inline constexpr MapTable kInfoTable{
+    "info",
+    "id INTEGER PRIMARY KEY, program TEXT, created TEXT, camera TEXT, is_approximate INTEGER,"
+    " depth_units_per_m, width_px INTEGER, height_px INTEGER, fx_px, fy_px, cx_px, cy_px,"
+    " k1, k2, p1, p2, k3",
+    17};
+inline constexpr MapTable kLevelsTable{"levels", "id INTEGER PRIMARY KEY, scale", 2};
+inline constexpr MapTable kKeyframesTable{
+    "keyframes",
+    "id INTEGER PRIMARY KEY, state INTEGER, map INTEGER, parent INTEGER, forward_to INTEGER,"
+    " frame INTEGER, stamp_ns INTEGER, tx, ty, tz, qx, qy, qz, qw,"
+    " keypoints BLOB, descriptors BLOB, semantics BLOB, points BLOB,"
+    " depth_width_px INTEGER, depth_height_px INTEGER, depth_mm BLOB",
+    21};
+inline constexpr MapTable kPointsTable{
+    "points",
+    "id INTEGER PRIMARY KEY, state INTEGER, replaced_by INTEGER, map INTEGER, x, y, z,"
+    " reference INTEGER, created_by INTEGER, times_expected INTEGER, times_found INTEGER,"
+    " appearance BLOB",
+    12};
+inline constexpr MapTable kChecksumsTable{
+    "checksums", "id INTEGER PRIMARY KEY, name TEXT, num_rows INTEGER, crc32 INTEGER", 4};
+
+inline constexpr std::array kMapTables = {kInfoTable, kLevelsTable, kKeyframesTable, kPointsTable,
+                                          kChecksumsTable};
+
+// Normal, distances and angle as floats, then the descriptor.
+inline constexpr std::size_t kAppearanceBytes = 6 * sizeof(float) + 32;
+
+// As SQLite keeps it, letter by letter.
+inline std::string CreateTableSql(const MapTable& table) {
+  return std::string("CREATE TABLE ") + table.name + "(" + table.columns + ")";
+}
+
+// The column keyframes.state.
+enum class KeyframeState : std::int8_t {
+  kAlive = 0,
+  kForwarded = 1,  // culled: a pose relative to forward_to
+  kNone = 2,       // the id is taken, and stands for nothing
+};
+
+}  // namespace cslam

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/atlas_io/map_file.h"
+#include "cslam/map/test_map.h"
+
+#include <opencv2/core.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cslam::test {
+
+// For tests: a map file's info for MakeKeyframe()'s 640 x 480 px camera.
+inline MapFileInfo MakeMapFileInfo() {
+  MapFileInfo info;
+  info.program = "changing-slam test";
+  info.created = "2026-11-22T04:00:00Z";
+  info.camera.camera = {.fx = 517.3, .fy = 516.5, .cx = 318.6, .cy = 255.3, .k1 = 0.26};
+  info.camera.name = "test";
+  info.level_scales = kLevelScales;
+  return info;
+}
+
+// A keyframe with a depth image of a wall 2 m away and labels on its first keypoints.
+inline Keyframe MakeFullKeyframe(std::uint32_t id, int num_features, double x, KeyframeId parent,
+                                 MapId map) {
+  Keyframe keyframe = MakeKeyframe(id, num_features, x, parent, map);
+  auto data = std::make_shared<KeyframeData>(*keyframe.data);
+  data->depth_small_mm = cv::Mat(120, 160, CV_16UC1, cv::Scalar(2000));
+  data->depth_small_mm.at<std::uint16_t>(3, 5) = static_cast<std::uint16_t>(1000 + id);
+  data->features.semantics[0] = {KeypointLabel::kDynamic, 0, TrackId(id)};
+  data->features.semantics[1] = {KeypointLabel::kMovable, 56, TrackId(7)};
+  data->features.keypoints[2].depth_m = 1.5F;
+  keyframe.data = std::move(data);
+  return keyframe;
+}
+
+// A row of keyframes 0.1 m apart; each makes num_features / 4 points that it and the next three
+// see.
+inline void AddRowOfKeyframes(Map& map, MapId map_id, int num_keyframes, int num_features) {
+  constexpr int kObservers = 4;
+  const auto first = static_cast<std::uint32_t>(map.num_keyframe_ids());
+  for (int k = 0; k < num_keyframes; ++k) {
+    const std::uint32_t id = first + static_cast<std::uint32_t>(k);
+    const KeyframeId parent = k == 0 ? KeyframeId() : KeyframeId(id - 1);
+    map.AddKeyframe(MakeFullKeyframe(id, num_features, 0.1 * k, parent, map_id));
+  }
+  const int points_per_keyframe = num_features / 4;
+  for (int k = 0; k < num_keyframes; ++k) {
+    for (int i = 0; i < points_per_keyframe; ++i) {
+      const KeyframeId maker(first + static_cast<std::uint32_t>(k));
+      const PointId point = map.AddPoint({0.1 * k, 0.01 * i, 3.0 + 1e-3 * i}, maker);
+      for (int o = 0; o < kObservers && k + o < num_keyframes; ++o) {
+        const KeyframeId observer(maker.value() + static_cast<std::uint32_t>(o));
+        map.AddObservation(point, observer, o * points_per_keyframe + i);
+      }
+      map.RefreshAppearance(point);
+    }
+  }
+}
+
+// Two maps with culled keyframes, ids that never were, fused and erased points.
+inline Map MakeAtlas() {
+  Map map(kLevelScales);
+  AddRowOfKeyframes(map, MapId(0), 6, 24);
+  map.AddForward(KeyframeId(8), KeyframeId(2),
+                 Se3(Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {1, 0, 0}));
+  AddRowOfKeyframes(map, MapId(3), 3, 12);
+  map.CullKeyframe(KeyframeId(3));
+  map.FusePoints(PointId(1), PointId(7));
+  map.FusePoints(PointId(2), PointId(1));
+  map.ErasePoint(PointId(4));
+  map.AddSightings(PointId(2), 12, 9);
+  map.SetPose(KeyframeId(2), Se3(ExpSo3({0.1, -0.2, 0.3}), {0.2, -0.0, 1e-17}));
+  return map;
+}
+
+// Whether two keypoint grids give the same answers.
+inline bool AreEqualGrids(const FrameFeatures& a, const FrameFeatures& b) {
+  std::vector<int> of_a, of_b;
+  for (float u = 0.0F; u < 640.0F; u += 32.0F) {
+    a.grid.VisitNear({u, 240.0F}, 40.0F, [&](int index) { of_a.push_back(index); });
+    b.grid.VisitNear({u, 240.0F}, 40.0F, [&](int index) { of_b.push_back(index); });
+  }
+  return of_a == of_b;
+}
+
+inline bool AreEqual(const Se3& a, const Se3& b) {
+  return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
+}
+
+inline bool AreEqual(const KeypointSemantics& a, const KeypointSemantics& b) {
+  return a.label == b.label && a.class_id == b.class_id && a.track == b.track;
+}
+
+inline bool AreEqual(const Keypoint& a, const Keypoint& b) {
+  return a.uv_px == b.uv_px && a.raw_px == b.raw_px && a.depth_m == b.depth_m &&
+         a.disparity_px == b.disparity_px && a.angle_rad == b.angle_rad && a.octave == b.octave;
+}
+
+inline bool AreEqual(const KeyframeData& a, const KeyframeData& b) {
+  const auto are_equal = [](const auto& x, const auto& y) { return AreEqual(x, y); };
+  const FrameFeatures& f = a.features;
+  const FrameFeatures& g = b.features;
+  return a.frame == b.frame && a.stamp == b.stamp &&
+         std::ranges::equal(f.keypoints, g.keypoints, are_equal) &&
+         f.descriptors == g.descriptors &&
+         std::ranges::equal(f.semantics, g.semantics, are_equal) &&
+         a.depth_small_mm.size() == b.depth_small_mm.size() &&
+         (a.depth_small_mm.empty() || cv::norm(a.depth_small_mm, b.depth_small_mm) == 0.0);
+}
+
+inline bool AreEqual(const Keyframe& a, const Keyframe& b) {
+  if (a.IsAlive() != b.IsAlive() || a.forward_to != b.forward_to) return false;
+  if (!a.IsAlive()) return AreEqual(a.T_forward_self, b.T_forward_self);
+  return a.id == b.id && a.map == b.map && a.parent == b.parent &&
+         AreEqual(a.T_world_camera, b.T_world_camera) && a.points == b.points &&
+         a.covisible == b.covisible && AreEqual(*a.data, *b.data);
+}
+
+inline bool AreEqual(const MapPoint& a, const MapPoint& b) {
+  if (a.id != b.id || a.state != b.state) return false;
+  if (!a.IsActive()) return a.state == PointState::kErased || a.replaced_by == b.replaced_by;
+  return a.map == b.map && a.p_world == b.p_world && a.normal == b.normal &&
+         a.min_distance_m == b.min_distance_m && a.max_distance_m == b.max_distance_m &&
+         a.angle_rad == b.angle_rad && a.descriptor == b.descriptor && a.reference == b.reference &&
+         a.created_by == b.created_by && a.observations == b.observations &&
+         a.times_expected == b.times_expected && a.times_found == b.times_found;
+}
+
+// Empty if the maps are equal, bit by bit, in everything that can be asked of them.
+inline std::string FindDifference(const MapView& a, const MapView& b) {
+  if (a.num_keyframe_ids() != b.num_keyframe_ids()) return "number of keyframe ids";
+  if (a.num_point_ids() != b.num_point_ids()) return "number of point ids";
+  if (a.num_keyframes() != b.num_keyframes()) return "number of keyframes";
+  if (a.num_points() != b.num_points()) return "number of points";
+  for (std::size_t i = 0; i < a.num_keyframe_ids(); ++i) {
+    if (!AreEqual(a.KeyframeSlot(i), b.KeyframeSlot(i))) return "keyframe " + std::to_string(i);
+  }
+  for (std::size_t i = 0; i < a.num_point_ids(); ++i) {
+    if (!AreEqual(a.PointSlot(i), b.PointSlot(i))) return "point " + std::to_string(i);
+  }
+  return {};
+}
+
+}  // namespace cslam::test
