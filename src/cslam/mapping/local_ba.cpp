@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/mapping/local_ba.h"
 
+#include "cslam/mapping/ba_problem.h"
+
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -15,20 +17,6 @@ struct Selection {
   std::size_t num_free = 0;
   std::vector<PointId> points;
 };
-
-std::vector<PointId> PointsSeenBy(const Map& map, const std::vector<KeyframeId>& keyframes) {
-  std::vector<std::uint8_t> is_member(map.num_point_ids(), 0);
-  std::vector<PointId> points;
-  for (const KeyframeId id : keyframes) {
-    for (const PointId point : map.FindKeyframe(id)->points) {
-      if (!point.valid() || is_member[point.index()] != 0) continue;
-      if (!IsUsable(*map.FindPoint(point))) continue;
-      is_member[point.index()] = 1;
-      points.push_back(point);
-    }
-  }
-  return points;
-}
 
 Selection Select(const Map& map, KeyframeId center, int min_shared_points,
                  const LocalBaOptions& options) {
@@ -64,7 +52,6 @@ Selection Select(const Map& map, KeyframeId center, int min_shared_points,
 // Something must hold still: the map's first keyframe if it takes part, else the fixed
 // observers, else the oldest of the free ones.
 void FixGauge(const Map& map, const Selection& selection, BaProblem& problem) {
-  problem.pose_is_fixed.assign(selection.keyframes.size(), 0);
   std::size_t oldest = 0;
   for (std::size_t i = 0; i < selection.keyframes.size(); ++i) {
     const bool is_root = !map.FindKeyframe(selection.keyframes[i])->parent.valid();
@@ -75,39 +62,6 @@ void FixGauge(const Map& map, const Selection& selection, BaProblem& problem) {
   if (!has_fixed) problem.pose_is_fixed[oldest] = 1;
 }
 
-BaProblem MakeProblem(const Map& map, const Selection& selection, const Camera& camera,
-                      const DepthOptions& depth, const MeasurementModel& model) {
-  BaProblem problem;
-  problem.camera = camera;
-  problem.baseline_m = depth.baseline_m;
-  std::vector<int> pose_of(map.num_keyframe_ids(), -1);
-  for (std::size_t i = 0; i < selection.keyframes.size(); ++i) {
-    pose_of[selection.keyframes[i].index()] = static_cast<int>(i);
-    problem.T_world_camera.push_back(map.FindKeyframe(selection.keyframes[i])->T_world_camera);
-  }
-  FixGauge(map, selection, problem);
-  for (const PointId id : selection.points) {
-    const MapPoint& point = *map.FindPoint(id);
-    const int index = static_cast<int>(problem.p_world.size());
-    problem.p_world.push_back(point.p_world);
-    for (const PointObservation& o : point.observations) {
-      const int pose = pose_of[o.keyframe.index()];
-      if (pose < 0) continue;
-      const Keyframe& keyframe = *map.FindKeyframe(o.keyframe);
-      const Keypoint& keypoint =
-          keyframe.data->features.keypoints[static_cast<std::size_t>(o.keypoint)];
-      problem.observations.push_back(
-          {.pose = pose,
-           .point = index,
-           .uv_px = keypoint.uv_px.cast<double>(),
-           .disparity_px = static_cast<double>(keypoint.disparity_px),
-           .information_px = model.information_px(keypoint.octave),
-           .information_disparity = model.information_disparity(keypoint.octave)});
-    }
-  }
-  return problem;
-}
-
 }  // namespace
 
 LocalBaReport AdjustLocally(Map& map, KeyframeId center, const Camera& camera,
@@ -115,7 +69,9 @@ LocalBaReport AdjustLocally(Map& map, KeyframeId center, const Camera& camera,
                             int min_shared_points, const LocalBaOptions& options,
                             const std::function<bool()>& should_stop) {
   const Selection selection = Select(map, center, min_shared_points, options);
-  const BaProblem problem = MakeProblem(map, selection, camera, depth, model);
+  BaProblem problem =
+      MakeBaProblem(map, selection.keyframes, selection.points, camera, depth, model);
+  FixGauge(map, selection, problem);
   const BaResult result = AdjustBundle(problem, options.solver, should_stop);
 
   for (std::size_t i = 0; i < selection.num_free; ++i) {

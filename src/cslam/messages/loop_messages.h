@@ -45,6 +45,7 @@ struct LoopEdge {
 
 // loop -> mapper: a loop closes, or two maps become one.
 struct MapCorrection {
+  std::uint32_t epoch = 0;  // of the snapshot: MapView::correction_epoch()
   LoopEdge loop;
   MapId map;                        // whose keyframes move
   MapId merge_into;                 // another map that swallows it; invalid: a loop within map
@@ -69,6 +70,7 @@ struct PoseRefinement {
     PointId point;
     KeyframeId keyframe;
   };
+  std::uint32_t epoch = 0;  // of the snapshot: MapView::correction_epoch()
   MapId map;
   std::vector<Pose> poses;            // by keyframe
   std::vector<Position> positions;    // by point
@@ -101,6 +103,7 @@ const char* ToString(LoopVerdict verdict);
 struct LoopEvidence {
   double score = 0.0;          // of the place index
   int num_matches = 0;         // descriptor matches
+  int num_ransac_inliers = 0;  // of those, that agree on a pose
   int num_inliers = 0;         // the verified pose agrees with
   double inlier_spread = 0.0;  // share of the image's cells that hold one
   double median_error_px = 0.0;
