@@ -37,6 +37,7 @@ LAYERS = {
     "run": STAGE | {"pipeline", "io", "atlas_io", "eval"},
     "viewer": STAGE | {"pipeline", "run", "io", "eval"},
 }
+TEST_ALSO = {"loop": {"mapping"}}  # tests of these folders: a loop is tested as it is applied
 TEST_TOOLS = {"io", "eval", "sim", "assets", "actors", "dataset"}  # tests of any layer may use these
 
 THREAD_FILES = {  # all others are synchronous
@@ -82,7 +83,8 @@ def check_include(rel, layer, is_test, target):
     match = re.match(r"cslam/(\w+)/", target)
     if match:
         other = match.group(1)
-        allowed = LAYERS[layer] | {layer} | (TEST_TOOLS if is_test else set())
+        allowed = LAYERS[layer] | {layer} | (
+            TEST_TOOLS | TEST_ALSO.get(layer, set()) if is_test else set())
         if other not in LAYERS:
             return f"unknown layer '{other}'; add it to tools/check_layers.py"
         if other not in allowed:

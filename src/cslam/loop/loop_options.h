@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/loop/geometric_verification.h"
 #include "cslam/optim/pose_graph.h"
 
 namespace cslam {
@@ -16,7 +17,7 @@ struct DepthCheckOptions {
   // standard deviation of a Kinect), the rest is for poses and edges.
   double tolerance_m = 0.08;
   double tolerance_per_m2 = 0.005;
-  double max_contradicted = 0.15;
+  double max_contradicted = 0.2;
   int min_compared = 200;
 };
 void Describe(OptionList& list, DepthCheckOptions& options);
@@ -39,11 +40,17 @@ struct LoopFusionOptions {
 void Describe(OptionList& list, LoopFusionOptions& options);
 
 struct LoopOptions {
+  int max_results = 40;
   int max_candidates = 3;
+  int min_votes = 8;
+  int min_shared_points = 15;
   int min_keyframes_apart = 10;
+  VerificationOptions verification;
+  int min_ransac_inliers = 15;
   int min_inliers = 40;
-  double min_spread = 0.25;
+  double min_spread = 0.375;
   int confirmations = 3;
+  int confirming_neighbours = 5;
   int max_missed = 2;
   double agreement_m = 0.10;
   double agreement_deg = 3.0;

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/loop/loop_sides.h"
+
+#include <algorithm>
+
+namespace cslam {
+
+std::vector<std::uint8_t> Neighbourhood(const MapView& map, const Keyframe& keyframe,
+                                        int min_shared_points, int min_keyframes_apart) {
+  std::vector<std::uint8_t> is_near(map.num_keyframe_ids(), 0);
+  is_near[keyframe.id.index()] = 1;
+  for (const CovisibleKeyframe& first : keyframe.covisible) {
+    is_near[first.id.index()] = 1;
+    for (const CovisibleKeyframe& second : map.FindKeyframe(first.id)->covisible) {
+      if (second.shared_points >= min_shared_points) is_near[second.id.index()] = 1;
+    }
+  }
+  const auto apart = static_cast<std::size_t>(min_keyframes_apart);
+  const std::size_t at = keyframe.id.index();
+  for (std::size_t i = at - std::min(at, apart - 1); i < std::min(at + apart, is_near.size());
+       ++i) {
+    const Keyframe* other = map.FindKeyframe(KeyframeId(static_cast<std::uint32_t>(i)));
+    if (other != nullptr && other->map == keyframe.map) is_near[i] = 1;
+  }
+  return is_near;
+}
+
+double PathLength(const MapView& map, const Keyframe& a, const Keyframe& b) {
+  const auto [first, last] = std::minmax(a.id, b.id);
+  double length = 0.0;
+  const Keyframe* previous = nullptr;
+  for (std::uint32_t i = first.value(); i <= last.value(); ++i) {
+    const Keyframe* keyframe = map.FindKeyframe(KeyframeId(i));
+    if (keyframe == nullptr || keyframe->map != a.map) continue;
+    if (previous != nullptr) {
+      length +=
+          (keyframe->T_world_camera.translation - previous->T_world_camera.translation).norm();
+    }
+    previous = keyframe;
+  }
+  return length;
+}
+
+LoopSides SidesOf(const MapView& map, KeyframeId fixed_end, KeyframeId moving_end,
+                  int keyframes_per_side) {
+  const auto limit = static_cast<std::size_t>(keyframes_per_side - 1);
+  LoopSides sides{.fixed = {fixed_end}, .moving = {moving_end}};
+  for (const CovisibleKeyframe& n : map.Neighbours(fixed_end, 1, limit)) {
+    if (n.id != moving_end) sides.fixed.push_back(n.id);
+  }
+  for (const CovisibleKeyframe& n : map.Neighbours(moving_end, 1, limit)) {
+    if (std::find(sides.fixed.begin(), sides.fixed.end(), n.id) == sides.fixed.end()) {
+      sides.moving.push_back(n.id);
+    }
+  }
+  return sides;
+}
+
+std::vector<DepthView> DepthViews(const CorrectedView& view,
+                                  std::span<const KeyframeId> keyframes) {
+  std::vector<DepthView> views;
+  for (const KeyframeId id : keyframes) {
+    const Keyframe& keyframe = *view.map().FindKeyframe(id);
+    views.push_back({keyframe.data->depth_small_mm, view.T_world_camera(keyframe)});
+  }
+  return views;
+}
+
+std::vector<PointId> UsablePoints(const MapView& map, std::span<const KeyframeId> keyframes) {
+  std::vector<PointId> points;
+  for (const KeyframeId id : keyframes) {
+    for (const PointId point : map.FindKeyframe(id)->points) {
+      if (point.valid() && IsUsable(*map.FindPoint(point))) points.push_back(point);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+}  // namespace cslam
