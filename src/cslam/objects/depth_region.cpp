@@ -223,6 +223,28 @@ DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person,
   return region;
 }
 
+DepthRegion SegmentMask(const DepthView& view, const Box& box, const cv::Mat& mask, bool is_person,
+                        const cv::Mat& excluded, const RegionOptions& options) {
+  if (view.empty() || box.empty() || mask.empty()) return {};
+  const cv::Rect rect = ThumbnailRect(view, box, 0.0);
+  if (rect.empty()) return {};
+  cv::Mat allowed = cv::Mat::zeros(view.depth_mm.size(), CV_8UC1);
+  for (int v = rect.y; v < rect.y + rect.height; ++v) {
+    for (int u = rect.x; u < rect.x + rect.width; ++u) {
+      const double x = ((u + 0.5) * view.step - box.x_min) / box.width();
+      const double y = ((v + 0.5) * view.step - box.y_min) / box.height();
+      const int column = std::clamp(static_cast<int>(x * mask.cols), 0, mask.cols - 1);
+      const int row = std::clamp(static_cast<int>(y * mask.rows), 0, mask.rows - 1);
+      if (mask.at<std::uint8_t>(row, column) != 0) allowed.at<std::uint8_t>(v, u) = 255;
+    }
+  }
+  if (!excluded.empty()) allowed.setTo(0, excluded);
+  DepthRegion region =
+      GrowRegion(view, allowed, allowed, ReachOf(is_person, options), options.step_ratio);
+  region.support = region.empty() ? 0.0 : 1.0;
+  return region;
+}
+
 DepthRegion CarryRegion(const DepthView& from, const DepthRegion& region, const DepthView& to,
                         const Se3& T_to_from, const Eigen::Vector3d& shift_m, double margin_px,
                         bool is_person, const RegionOptions& options) {

@@ -61,6 +61,11 @@ void Describe(OptionList& list, RegionOptions& options);
 DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person,
                        const cv::Mat& excluded, const RegionOptions& options);
 
+// What a detector's mask covers (CV_8UC1, non-zero inside, stretched over box), as far as excluded
+// and the depth do not speak against it: for networks that give masks beside boxes.
+DepthRegion SegmentMask(const DepthView& view, const Box& box, const cv::Mat& mask, bool is_person,
+                        const cv::Mat& excluded, const RegionOptions& options);
+
 // Where a region of an earlier view is now: its points are moved by the camera's motion and the
 // thing's own shift (m, in the new camera's frame), those whose depth agrees are kept, and the
 // region is grown again over the surface they lie on, up to margin_px beyond. Empty if fewer than

@@ -57,6 +57,17 @@ TEST(SegmentBox, IsEmptyWithoutDepthWithoutOverlapAndForBrokenBoxes) {
   EXPECT_TRUE(SegmentBox(DepthView{}, {0, 0, 10, 10}, true, {}, {}).empty());
 }
 
+TEST(SegmentMask, TakesWhatTheMaskCoversAndNoMore) {
+  cv::Mat depth = Wall(4.0);
+  const Box person = DrawPanel(depth, 0.0, 0.0, 2.0, 0.6, 1.2);
+  const DepthView view = ViewOf(depth);
+  cv::Mat upper_half = cv::Mat::zeros(28, 28, CV_8UC1);
+  upper_half.rowRange(0, 14).setTo(255);
+  const DepthRegion region = SegmentMask(view, person, upper_half, true, {}, {});
+  EXPECT_NEAR(Coverage(region, person, view.step), 0.5, 0.05);
+  EXPECT_TRUE(SegmentMask(view, person, cv::Mat::zeros(28, 28, CV_8UC1), true, {}, {}).empty());
+}
+
 TEST(CarryRegion, FollowsAPersonWhoWalksWhileTheCameraTurns) {
   cv::Mat before = Wall(4.0);
   const Box box = DrawPanel(before, 0.0, 0.0, 2.0, 0.5, 1.2);

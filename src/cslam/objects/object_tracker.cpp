@@ -169,6 +169,15 @@ void ObjectTracker::TakeIn(const Detections& detections) {
   if (past != history_.end()) Associate(*past, detections);
 }
 
+DepthRegion ObjectTracker::Segment(const DepthView& view, const Detection& detection,
+                                   const cv::Mat& excluded) const {
+  const bool is_person = detection.class_id == kPersonClass;
+  return detection.mask.empty()
+             ? SegmentBox(view, detection.box, is_person, excluded, options_.region)
+             : SegmentMask(view, detection.box, detection.mask, is_person, excluded,
+                           options_.region);
+}
+
 // Nearer things first, so that those behind them leave out what is covered.
 std::vector<DepthRegion> ObjectTracker::SegmentAll(const Frame& frame,
                                                    const Detections& detections) const {
@@ -176,10 +185,8 @@ std::vector<DepthRegion> ObjectTracker::SegmentAll(const Frame& frame,
   std::vector<DepthRegion> regions(count);
   std::vector<std::size_t> order(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Detection& detection = detections.objects[i];
     order[i] = i;
-    regions[i] = SegmentBox(frame.view, detection.box, detection.class_id == kPersonClass, {},
-                            options_.region);
+    regions[i] = Segment(frame.view, detections.objects[i], {});
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const float za = regions[a].empty() ? std::numeric_limits<float>::max() : regions[a].median_m;
@@ -192,10 +199,7 @@ std::vector<DepthRegion> ObjectTracker::SegmentAll(const Frame& frame,
     bool overlaps = false;
     for (std::size_t j = 0; j < count; ++j)
       overlaps = overlaps || (j != i && Iou(detections.objects[j].box, detection.box) > 0.0);
-    if (overlaps && !taken.empty()) {
-      regions[i] = SegmentBox(frame.view, detection.box, detection.class_id == kPersonClass, taken,
-                              options_.region);
-    }
+    if (overlaps && !taken.empty()) regions[i] = Segment(frame.view, detection, taken);
     if (regions[i].empty()) continue;
     if (taken.empty()) taken = cv::Mat::zeros(regions[i].mask.size(), CV_8UC1);
     taken.setTo(255, regions[i].mask);

@@ -118,6 +118,8 @@ class ObjectTracker {
   SurfaceMotion SurfaceMotionOf(const Object& object) const;
   void TakeIn(const Detections& detections);
   void Associate(const Frame& frame, const Detections& detections);
+  DepthRegion Segment(const DepthView& view, const Detection& detection,
+                      const cv::Mat& excluded) const;
   std::vector<DepthRegion> SegmentAll(const Frame& frame, const Detections& detections) const;
   void Renew(std::optional<TrackId> id, const Detection& detection, DepthRegion region,
              const Frame& frame);
