@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kDescriptorBits = 256;
 constexpr std::size_t kSignatureBits = 64;
+constexpr std::size_t kAlwaysRead = 500;  // postings; a small map is one place, whose keys repeat
 
 bool BitOf(const Descriptor& descriptor, std::size_t bit) {
   return ((descriptor.words[bit / 64] >> (bit % 64)) & 1U) != 0;
@@ -42,6 +43,9 @@ void Describe(OptionList& list, PlaceIndexOptions& o) {
       "max_signature_distance", o.max_signature_distance, {0, 32}, "bits",
       "Descriptors with the same key are taken for neighbours if at most so many of 64 further "
       "bits differ.");
+  list.Add("max_key_share", o.max_key_share, {0.001, 1000.0}, "",
+           "Keys that occur more often than in this share of the keyframes are skipped: corners of "
+           "pictures cluster, and what is everywhere costs time and tells nothing.");
 }
 
 PlaceIndex::PlaceIndex(const PlaceIndexOptions& options) : options_(options) {
@@ -135,6 +139,9 @@ std::vector<PlaceCandidate> PlaceIndex::Query(std::span<const Descriptor> descri
   std::vector<std::uint32_t> last_voter(entries_.size(), 0);
   std::vector<std::uint32_t> found;
   std::uint32_t voter = 0;
+  const auto max_bucket = std::max(
+      kAlwaysRead,
+      static_cast<std::size_t>(options_.max_key_share * static_cast<double>(num_keyframes_)));
   for (const Descriptor& descriptor : descriptors) {
     ++voter;
     found.clear();
@@ -142,7 +149,9 @@ std::vector<PlaceCandidate> PlaceIndex::Query(std::span<const Descriptor> descri
     const auto low = static_cast<std::uint32_t>(signature);
     const auto high = static_cast<std::uint32_t>(signature >> 32U);
     for (std::size_t t = 0; t < static_cast<std::size_t>(options_.num_tables); ++t) {
-      for (const Posting& posting : BucketOf(t, KeyOf(descriptor, t))) {
+      const Bucket& bucket = BucketOf(t, KeyOf(descriptor, t));
+      if (bucket.size() > max_bucket) continue;
+      for (const Posting& posting : bucket) {
         const int distance = std::popcount((std::uint64_t{posting.signature[1] ^ high} << 32U) |
                                            (posting.signature[0] ^ low));
         if (distance > options_.max_signature_distance) continue;

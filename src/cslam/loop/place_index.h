@@ -19,7 +19,8 @@ class OptionList;
 struct PlaceIndexOptions {
   int num_tables = 4;
   int key_bits = 14;
-  int max_signature_distance = 12;
+  int max_signature_distance = 8;
+  double max_key_share = 0.25;
 };
 void Describe(OptionList& list, PlaceIndexOptions& options);
 
