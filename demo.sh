@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds the program, and runs SLAM on a sequence: a folder in the
-# layout of the TUM RGB-D benchmark, or, without one, a tour of a room that is rendered here once.
+# Installs what is missing, builds the program, fetches a detector if there is none, and runs SLAM on a
+# sequence: a folder in the layout of the TUM RGB-D benchmark, or, without one, a tour of a room that
+# is rendered here once.
 #   ./demo.sh [SEQUENCE [options of 'changing-slam run']]
 set -euo pipefail
 case ${1:-} in
   -h | --help)
-    sed -n '3,5s/^# //p' "$0"
+    sed -n '3,6s/^# //p' "$0"
     exit 0
     ;;
 esac
@@ -24,9 +25,10 @@ cd "$(dirname "$0")"
 root=$PWD
 . tools/setup.sh
 
-install_packages "${build_packages[@]}"
+install_packages "${build_packages[@]}" "${model_packages[@]}"
 configure_and_build release changing_slam
 program=$root/build/release/changing-slam
+install_detector "$program"
 
 if [ -z "$sequence" ]; then
   sequence=$root/data/demo

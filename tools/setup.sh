@@ -7,6 +7,7 @@ build_packages=(
   libopencv-dev libeigen3-dev libceres-dev libtbb-dev libfmt-dev libspdlog-dev libcli11-dev
   libyaml-cpp-dev nlohmann-json3-dev libembree-dev libturbojpeg0-dev libpng-dev zlib1g-dev
   libsqlite3-dev)
+model_packages=(python3 python3-numpy python3-onnx) # to install a detector
 test_packages=(libgtest-dev libgmock-dev python3 clang-format)
 
 say() {
@@ -47,6 +48,21 @@ install_packages() {
   "${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get update -qq >&2
   "${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
     -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}" >&2
+}
+
+# install_detector PROGRAM: once, if there is no model yet. SLAM runs without one, too.
+install_detector() {
+  local program=$1
+  local limit_s=240 # of the 10 minutes a demo may take
+  if [ -n "$("$program" model list 2>/dev/null)" ]; then
+    return 0
+  fi
+  say "Fetching a detector of people and things (144.5 MB, once; docs/models.md)"
+  local log=build/model_install.log
+  if ! timeout "$limit_s" "$program" model install >"$log" 2>&1 </dev/null; then
+    grep -a error "$log" | tail -n 1 >&2 || true
+    echo "Going on without a detector. Later: $program model install" >&2
+  fi
 }
 
 # configure_and_build PRESET [TARGET...]: without targets, everything is built.
