@@ -27,10 +27,10 @@ inline MapFileInfo MakeMapFileInfo() {
 
 // A keyframe with a depth image of a wall 2 m away and labels on its first keypoints.
 inline Keyframe MakeFullKeyframe(std::uint32_t id, int num_features, double x, KeyframeId parent,
-                                 MapId map) {
+                                 MapId map, const cv::Size& depth_size) {
   Keyframe keyframe = MakeKeyframe(id, num_features, x, parent, map);
   auto data = std::make_shared<KeyframeData>(*keyframe.data);
-  data->depth_small_mm = cv::Mat(120, 160, CV_16UC1, cv::Scalar(2000));
+  data->depth_small_mm = cv::Mat(depth_size, CV_16UC1, cv::Scalar(2000));
   data->depth_small_mm.at<std::uint16_t>(3, 5) = static_cast<std::uint16_t>(1000 + id);
   data->features.semantics[0] = {KeypointLabel::kDynamic, 0, TrackId(id)};
   data->features.semantics[1] = {KeypointLabel::kMovable, 56, TrackId(7)};
@@ -41,13 +41,14 @@ inline Keyframe MakeFullKeyframe(std::uint32_t id, int num_features, double x, K
 
 // A row of keyframes 0.1 m apart; each makes num_features / 4 points that it and the next three
 // see.
-inline void AddRowOfKeyframes(Map& map, MapId map_id, int num_keyframes, int num_features) {
+inline void AddRowOfKeyframes(Map& map, MapId map_id, int num_keyframes, int num_features,
+                              const cv::Size& depth_size = {40, 30}) {
   constexpr int kObservers = 4;
   const auto first = static_cast<std::uint32_t>(map.num_keyframe_ids());
   for (int k = 0; k < num_keyframes; ++k) {
     const std::uint32_t id = first + static_cast<std::uint32_t>(k);
     const KeyframeId parent = k == 0 ? KeyframeId() : KeyframeId(id - 1);
-    map.AddKeyframe(MakeFullKeyframe(id, num_features, 0.1 * k, parent, map_id));
+    map.AddKeyframe(MakeFullKeyframe(id, num_features, 0.1 * k, parent, map_id, depth_size));
   }
   const int points_per_keyframe = num_features / 4;
   for (int k = 0; k < num_keyframes; ++k) {
