@@ -78,6 +78,7 @@ std::string Parameters(const RenderRecord& record, const Camera& camera) {
   table.AddRow({"sensor noise", std::string(NameOf(record.noise))});
   table.AddRow({"seed", std::to_string(record.seed)});
   table.AddRow({"look", record.look});
+  if (record.without_people) table.AddRow({"people", "left out; what they carry moves by itself"});
   if (!record.program.empty()) table.AddRow({"program", record.program});
   return table.Text();
 }

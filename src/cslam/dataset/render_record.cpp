@@ -67,8 +67,8 @@ RenderRecord ReadRenderRecord(const std::filesystem::path& file) {
   const JsonValue root = json.root();
   RequireFormat(root, kFormat);
   root.RequireKeys({"format", "version", "sequence", "summary", "program", "look", "command",
-                    "seed", "is_short", "width_px", "height_px", "fps", "num_frames",
-                    "story_duration_s", "noise", "people"});
+                    "seed", "is_short", "without_people", "width_px", "height_px", "fps",
+                    "num_frames", "story_duration_s", "noise", "people"});
   RenderRecord record;
   record.sequence = root.At("sequence").Text();
   record.summary = root.At("summary").Text();
@@ -77,6 +77,7 @@ RenderRecord ReadRenderRecord(const std::filesystem::path& file) {
   record.command = root.At("command").Text();
   record.seed = root.At("seed").Unsigned64();
   record.is_short = root.At("is_short").Bool();
+  record.without_people = root.At("without_people").Bool();
   record.width_px = root.At("width_px").IntegerIn(1, kMaxSidePx);
   record.height_px = root.At("height_px").IntegerIn(1, kMaxSidePx);
   record.fps = root.At("fps").NumberIn(0.0, kMaxFps);
@@ -95,6 +96,7 @@ void WriteRenderRecord(const std::filesystem::path& file, const RenderRecord& re
   out.Print("  \"look\": {},\n", JsonQuoted(record.look));
   out.Print("  \"command\": {},\n", JsonQuoted(record.command));
   out.Print("  \"seed\": {},\n  \"is_short\": {},\n", record.seed, record.is_short);
+  out.Print("  \"without_people\": {},\n", record.without_people);
   out.Print("  \"width_px\": {},\n  \"height_px\": {},\n", record.width_px, record.height_px);
   out.Print("  \"fps\": {},\n  \"num_frames\": {},\n  \"story_duration_s\": {},\n",
             JsonNumber(record.fps), record.num_frames, JsonNumber(record.story_duration_s));
@@ -121,6 +123,7 @@ std::vector<std::string> Differences(const RenderRecord& there, const RenderReco
   compare("the size", size(there), size(wanted));
   compare("the noise", NameOf(there.noise), NameOf(wanted.noise));
   compare("the short form", there.is_short, wanted.is_short);
+  compare("leaving people out", there.without_people, wanted.without_people);
   compare("the look", there.look, wanted.look);
   compare("the program", there.program, wanted.program);
   return differences;

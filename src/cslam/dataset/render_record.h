@@ -25,6 +25,7 @@ struct RenderRecord {
   std::string command;              // that renders it again; empty: none
   std::uint64_t seed = 1;
   bool is_short = false;
+  bool without_people = false;
   int width_px = 0;
   int height_px = 0;
   double fps = 0.0;

@@ -24,6 +24,7 @@ RenderRecord SomeRecord() {
   record.command = "changing-slam dataset render shift";
   record.seed = std::numeric_limits<std::uint64_t>::max();
   record.is_short = true;
+  record.without_people = true;
   record.width_px = 320;
   record.height_px = 240;
   record.fps = 7.5;
@@ -60,9 +61,10 @@ TEST(Differences, NameEveryParameterThatDiffers) {
   other.fps = 5;
   other.noise = SensorNoise::kOff;
   other.is_short = false;
+  other.without_people = false;
   other.look = "procedural";
   other.program = "0.2.0";
-  EXPECT_EQ(Differences(SomeRecord(), other).size(), 7U);
+  EXPECT_EQ(Differences(SomeRecord(), other).size(), 8U);
 }
 
 TEST(ReadRenderRecord, NamesThePlaceOfAWrongValue) {

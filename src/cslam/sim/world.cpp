@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace cslam {
 namespace {
@@ -37,6 +38,20 @@ ObjectState StateAt(const World& world, int instance, double time_s) {
   if (timeline != world.timelines.end()) return StateAt(timeline->second, time_s);
   const auto& object = world.scene.objects[static_cast<std::size_t>(instance)];
   return {Presence::kResting, object.T_world_object};
+}
+
+World WithoutClass(World world, int class_id) {
+  World rest{.scene = std::move(world.scene), .timelines = {}, .animations = {}};
+  std::vector<SceneObject> objects = std::exchange(rest.scene.objects, {});
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].class_id == class_id) continue;
+    const auto before = static_cast<int>(i);
+    const auto after = static_cast<int>(rest.scene.objects.size());
+    rest.scene.objects.push_back(std::move(objects[i]));
+    if (auto node = world.timelines.extract(before)) rest.timelines[after] = node.mapped();
+    if (auto node = world.animations.extract(before)) rest.animations[after] = node.mapped();
+  }
+  return rest;
 }
 
 std::vector<double> TimesOfChange(const World& world) {

@@ -66,6 +66,9 @@ struct World {
 // The same for an object of a world (not for animated ones, whose motion is the animation's).
 ObjectState StateAt(const World& world, int instance, double time_s);
 
+// The world without the objects of a class; the others keep their order, not their instance ids.
+World WithoutClass(World world, int class_id);
+
 // Times at which something comes to rest, leaves its place, appears or disappears, in order; the
 // world's resting part is the same between two of them.
 std::vector<double> TimesOfChange(const World& world);

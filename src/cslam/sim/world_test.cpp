@@ -66,5 +66,26 @@ TEST(TimesOfChange, ListsEveryStartAndEndOnce) {
   EXPECT_TRUE(TimesOfChange(World{}).empty());
 }
 
+TEST(WithoutClass, KeepsTheOthersWithWhatTheyDo) {
+  World world;
+  world.scene.objects = {{.name = "room"},
+                         {.name = "first", .class_id = 0},
+                         {.name = "box", .class_id = 28},
+                         {.name = "second", .class_id = 0},
+                         {.name = "dog", .class_id = 16}};
+  world.timelines[2] = MakeTimeline();
+  for (const int id : {1, 3, 4})
+    world.animations[id] = [id](double) {
+      return BodyShape{.positions = std::vector<Eigen::Vector3f>(static_cast<std::size_t>(id))};
+    };
+  const World rest = WithoutClass(world, 0);
+  ASSERT_EQ(rest.scene.objects.size(), 3U);
+  EXPECT_EQ(rest.scene.objects[1].name, "box");
+  EXPECT_EQ(rest.scene.objects[2].name, "dog");
+  EXPECT_EQ(StateAt(rest, 1, 2.5).presence, Presence::kMoving);
+  ASSERT_EQ(rest.animations.size(), 1U);
+  EXPECT_EQ(rest.animations.at(2)(0.0)->positions.size(), 4U);
+}
+
 }  // namespace
 }  // namespace cslam
