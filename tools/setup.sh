@@ -59,7 +59,13 @@ install_detector() {
   fi
   say "Fetching a detector of people and things (144.5 MB, once; docs/models.md)"
   local log=build/model_install.log
-  if ! timeout "$limit_s" "$program" model install >"$log" 2>&1 </dev/null; then
+  timeout "$limit_s" "$program" model install >"$log" 2>&1 </dev/null & # in a group of its own
+  local installer=$!
+  trap 'kill "$installer"; exit 130' INT TERM
+  local status=0
+  wait "$installer" || status=$?
+  trap - INT TERM
+  if [ "$status" -ne 0 ]; then
     grep -a error "$log" | tail -n 1 >&2 || true
     echo "Going on without a detector. Later: $program model install" >&2
   fi
