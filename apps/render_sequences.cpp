@@ -31,6 +31,8 @@ namespace {
 // Thrown out of a download that the user ends.
 struct Interrupted {};
 
+constexpr std::string_view kAllNames = "all";
+
 struct Task {
   SequenceEntry entry;
   std::filesystem::path folder;
@@ -47,14 +49,22 @@ SequenceEntry FindEntry(std::string_view name) {
                                nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
 }
 
-std::vector<Task> MakeTasks(const RenderArguments& arguments) {
+// Throws UsageError for names that are unknown or there twice.
+std::vector<SequenceEntry> FindEntries(const std::vector<std::string>& names) {
+  if (names == std::vector<std::string>{kAllNames}) return RenderableSequences();
   std::vector<SequenceEntry> entries;
-  if (arguments.names == std::vector<std::string>{"all"}) {
-    entries = RenderableSequences();
-  } else {
-    for (const std::string& name : arguments.names)
-      entries.push_back(FindEntry(name));
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (*name == kAllNames) throw UsageError("'all' stands alone, without other names");
+    if (std::find(names.begin(), name, *name) != name)
+      throw UsageError(fmt::format("'{}' is named twice", *name));
+    entries.push_back(FindEntry(*name));
   }
+  return entries;
+}
+
+std::vector<Task> MakeTasks(const RenderArguments& arguments) {
+  if (arguments.folder.empty()) throw UsageError("--out: the name of the folder is empty");
+  const std::vector<SequenceEntry> entries = FindEntries(arguments.names);
   std::vector<Task> tasks;
   for (const SequenceEntry& entry : entries) {
     const bool is_only = entries.size() == 1;

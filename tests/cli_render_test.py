@@ -206,6 +206,16 @@ class UsageTest(RenderTestCase):
     def test_unknown_sequence_names_the_nearest(self):
         self.assert_one_line_error(self.render(name="dmo"), 2, "'dmo'", "'demo'", "dataset list")
 
+    def test_names_given_twice_and_all_among_others_are_usage_errors(self):
+        for names, complaint in ((("demo", "static", "demo"), "'demo' is named twice"),
+                                 (("demo", "all"), "'all' stands alone")):
+            result = run("dataset", "render", *names, "--out", self.out)
+            self.assert_one_line_error(result, 2, complaint)
+            self.assertFalse(self.out.exists())
+
+    def test_empty_name_of_the_folder_is_a_usage_error(self):
+        self.assert_one_line_error(run("dataset", "render", "demo", "--out", ""), 2, "--out")
+
     def test_silly_values_are_usage_errors_that_name_the_option(self):
         cases = [("--size", size) for size in ("0x0", "64", "64x", "x48", "64x48x1", "-64x48",
                                                "31x48", "64x4097", "99999999999x48", "big")]
