@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/mapping/mapper.h"
 
+#include "cslam/mapping/correction.h"
 #include "cslam/mapping/culling.h"
 #include "cslam/mapping/fusion.h"
 #include "cslam/mapping/local_ba.h"
@@ -69,6 +70,7 @@ MapUpdate Mapper::Insert(const KeyframeProposal& proposal) {
       return Publish(std::move(update));
     }
     keyframe.parent = anchor->keyframe;
+    keyframe.map = map_.FindKeyframe(anchor->keyframe)->map;  // its own may have been merged away
     keyframe.T_world_camera = map_.FindKeyframe(anchor->keyframe)->T_world_camera *
                               anchor->T_keyframe_self * proposal.T_reference_camera;
   }
@@ -120,6 +122,25 @@ MapUpdate Mapper::Refine(const std::function<bool()>& should_stop) {
   update.keyframes_culled =
       CullRedundantKeyframes(map_, newest_, depth_, options_.min_shared_points, options_.culling);
   AddLap(update.times, "cull", watch);
+  return Publish(std::move(update));
+}
+
+MapUpdate Mapper::Apply(const MapCorrection& correction) {
+  Stopwatch watch;
+  return Publish(ApplyCorrection(map_, correction), watch);
+}
+
+MapUpdate Mapper::Apply(const PoseRefinement& refinement) {
+  Stopwatch watch;
+  return Publish(ApplyRefinement(map_, refinement), watch);
+}
+
+MapUpdate Mapper::Publish(CorrectionReport report, Stopwatch& watch) {
+  MapUpdate update;
+  update.step = MapUpdate::Step::kCorrected;
+  update.points_fused = report.points_fused;
+  update.correction = std::move(report);
+  AddLap(update.times, "correct", watch);
   return Publish(std::move(update));
 }
 

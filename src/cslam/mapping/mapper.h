@@ -29,12 +29,18 @@ class Mapper {
   // the local bundle, culls keyframes. should_stop ends the adjustment early; may be empty.
   MapUpdate Refine(const std::function<bool()>& should_stop = {});
 
+  // What loop closing worked out on a snapshot, applied in one step; see mapping/correction.h. A
+  // refused one changes nothing.
+  MapUpdate Apply(const MapCorrection& correction);
+  MapUpdate Apply(const PoseRefinement& refinement);
+
   void Reset();
 
   const Map& map() const { return map_; }
 
  private:
   MapUpdate Publish(MapUpdate update);
+  MapUpdate Publish(CorrectionReport report, Stopwatch& watch);
 
   const Camera camera_;
   const ImageBounds bounds_;

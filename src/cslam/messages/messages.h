@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/map/map_view.h"
+#include "cslam/messages/loop_messages.h"
 #include "cslam/objects/object_tracker.h"
 #include "cslam/util/stopwatch.h"
 #include "cslam/vision/rgbd_frame.h"
@@ -106,7 +107,7 @@ struct TrackingResult {
 
 // mapper -> sinks: what one step of the mapper did.
 struct MapUpdate {
-  enum class Step : std::uint8_t { kInserted, kRefined, kRefused };
+  enum class Step : std::uint8_t { kInserted, kRefined, kRefused, kCorrected };
   Step step = Step::kInserted;
   KeyframeId keyframe;
   std::shared_ptr<const MapSnapshot> snapshot;
@@ -116,6 +117,7 @@ struct MapUpdate {
   int keyframes_culled = 0;
   int ba_iterations = 0;
   bool ba_was_stopped = false;
+  std::optional<CorrectionReport> correction;  // of a loop, a merge or a full bundle adjustment
   std::vector<StageTime> times;
 };
 

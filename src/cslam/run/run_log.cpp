@@ -29,6 +29,8 @@ void RunRecorder::OnMap(const MapUpdate& update) {
       ++counts.ba_runs;
       if (update.ba_was_stopped) ++counts.ba_stopped;
       break;
+    case MapUpdate::Step::kCorrected:
+      break;
     case MapUpdate::Step::kRefused:
       ++counts.keyframes_refused;
       return;
