@@ -74,7 +74,7 @@ DepthRange RangeAround(const cv::Mat& depth_mm, const cv::Point& pixel) {
   return range;
 }
 
-void Compare(const DepthView& from, const DepthView& into, const ThumbnailRays& rays,
+void Compare(const PlacedDepth& from, const PlacedDepth& into, const ThumbnailRays& rays,
              const DepthCheckOptions& options, DepthComparison& result) {
   const Se3 T_into_from = into.T_world_camera.Inverse() * from.T_world_camera;
   const Eigen::Matrix3d R_into_from = T_into_from.R();
@@ -103,20 +103,20 @@ void Compare(const DepthView& from, const DepthView& into, const ThumbnailRays& 
 
 }  // namespace
 
-DepthComparison CompareDepth(const std::vector<DepthView>& side_a,
-                             const std::vector<DepthView>& side_b, const Camera& camera,
+DepthComparison CompareDepth(const std::vector<PlacedDepth>& side_a,
+                             const std::vector<PlacedDepth>& side_b, const Camera& camera,
                              const DepthCheckOptions& options) {
   DepthComparison result;
-  std::vector<const DepthView*> views;
+  std::vector<const PlacedDepth*> views;
   for (const auto* side : {&side_a, &side_b}) {
-    for (const DepthView& view : *side) {
+    for (const PlacedDepth& view : *side) {
       if (!view.depth_small_mm.empty()) views.push_back(&view);
     }
   }
   if (views.empty()) return result;
   const ThumbnailRays rays(camera, views.front()->depth_small_mm.size());
-  for (const DepthView& a : side_a) {
-    for (const DepthView& b : side_b) {
+  for (const PlacedDepth& a : side_a) {
+    for (const PlacedDepth& b : side_b) {
       if (a.depth_small_mm.size() != rays.size() || b.depth_small_mm.size() != rays.size())
         continue;
       Compare(a, b, rays, options, result);

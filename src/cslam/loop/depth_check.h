@@ -23,15 +23,15 @@ struct DepthComparison {
 };
 
 // A keyframe's reduced depth image (KeyframeData::depth_small_mm) at its pose.
-struct DepthView {
+struct PlacedDepth {
   cv::Mat depth_small_mm;
   Se3 T_world_camera;
 };
 
 // Carries every reading of each view into every view of the other side, both ways. A reading behind
 // what the other saw says nothing: the other view's own readings are judged when their turn comes.
-DepthComparison CompareDepth(const std::vector<DepthView>& side_a,
-                             const std::vector<DepthView>& side_b, const Camera& camera,
+DepthComparison CompareDepth(const std::vector<PlacedDepth>& side_a,
+                             const std::vector<PlacedDepth>& side_b, const Camera& camera,
                              const DepthCheckOptions& options);
 
 }  // namespace cslam

@@ -11,10 +11,10 @@ namespace {
 
 class DepthCheckTest : public testing::Test {
  protected:
-  DepthView ViewAt(const Se3& T_world_camera) const {
+  PlacedDepth ViewAt(const Se3& T_world_camera) const {
     return {test::RoomDepth(room_, camera_, T_world_camera), T_world_camera};
   }
-  DepthComparison Compare(const DepthView& a, const DepthView& b) const {
+  DepthComparison Compare(const PlacedDepth& a, const PlacedDepth& b) const {
     return CompareDepth({a}, {b}, camera_, {});
   }
 
@@ -30,8 +30,8 @@ TEST_F(DepthCheckTest, FindsNothingWrongWhereTwoViewsShowOneRoom) {
 }
 
 TEST_F(DepthCheckTest, ContradictsAPoseThatPutsAWallInFreeSpace) {
-  const DepthView first = ViewAt(test::CirclePose(0.0));
-  DepthView second = first;
+  const PlacedDepth first = ViewAt(test::CirclePose(0.0));
+  PlacedDepth second = first;
   second.T_world_camera.translation.z() -= 0.5;
   EXPECT_GT(Compare(first, second).contradicted(), 0.4);
   second.T_world_camera.translation.z() += 1.0;
@@ -39,16 +39,16 @@ TEST_F(DepthCheckTest, ContradictsAPoseThatPutsAWallInFreeSpace) {
 }
 
 TEST_F(DepthCheckTest, CountsAThingThatCameByItsShareOnly) {
-  const DepthView before = ViewAt(test::CirclePose(0.0));
+  const PlacedDepth before = ViewAt(test::CirclePose(0.0));
   room_.things.push_back({{-0.3, 0.3, 2.0}, {0.3, 1.3, 2.5}});  // a chair
-  const DepthView after = ViewAt(test::CirclePose(0.02));
+  const PlacedDepth after = ViewAt(test::CirclePose(0.02));
   const DepthComparison depth = Compare(before, after);
   EXPECT_GT(depth.num_contradicting, 20);
   EXPECT_LT(depth.contradicted(), 0.15);
 }
 
 TEST_F(DepthCheckTest, ComparesNothingWhereNothingWasMeasured) {
-  DepthView blind = ViewAt(test::CirclePose(0.0));
+  PlacedDepth blind = ViewAt(test::CirclePose(0.0));
   blind.depth_small_mm = 0;
   EXPECT_EQ(Compare(ViewAt(test::CirclePose(0.0)), blind).num_compared(), 0);
   blind.depth_small_mm = cv::Mat();

@@ -252,8 +252,8 @@ std::optional<MapCorrection> LoopCloser::Close(LoopRecord& record, const MapView
 DepthComparison LoopCloser::CompareSides(const LoopEdge& loop, const CorrectedView& view) const {
   const DepthCheckOptions& options = options_.depth_check;
   const LoopSides sides = SidesOf(view.map(), loop.match, loop.query, options.keyframes_per_side);
-  return CompareDepth(DepthViews(view, sides.fixed), DepthViews(view, sides.moving), sensor_.camera,
-                      options);
+  return CompareDepth(PlacedDepths(view, sides.fixed), PlacedDepths(view, sides.moving),
+                      sensor_.camera, options);
 }
 
 // What the loop asks of the map, points aside.

@@ -57,9 +57,9 @@ LoopSides SidesOf(const MapView& map, KeyframeId fixed_end, KeyframeId moving_en
   return sides;
 }
 
-std::vector<DepthView> DepthViews(const CorrectedView& view,
-                                  std::span<const KeyframeId> keyframes) {
-  std::vector<DepthView> views;
+std::vector<PlacedDepth> PlacedDepths(const CorrectedView& view,
+                                      std::span<const KeyframeId> keyframes) {
+  std::vector<PlacedDepth> views;
   for (const KeyframeId id : keyframes) {
     const Keyframe& keyframe = *view.map().FindKeyframe(id);
     views.push_back({keyframe.data->depth_small_mm, view.T_world_camera(keyframe)});

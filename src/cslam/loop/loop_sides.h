@@ -29,7 +29,8 @@ LoopSides SidesOf(const MapView& map, KeyframeId fixed_end, KeyframeId moving_en
                   int keyframes_per_side);
 
 // The depth images of keyframes where they will be after a correction.
-std::vector<DepthView> DepthViews(const CorrectedView& view, std::span<const KeyframeId> keyframes);
+std::vector<PlacedDepth> PlacedDepths(const CorrectedView& view,
+                                      std::span<const KeyframeId> keyframes);
 
 // The usable points the keyframes see, by id.
 std::vector<PointId> UsablePoints(const MapView& map, std::span<const KeyframeId> keyframes);
