@@ -56,6 +56,18 @@ const PlaceVerification* FindRival(const MapView& map, const PlaceVerification& 
   return nullptr;
 }
 
+// Whether another view of the same place was accepted: this one would say the same again.
+bool IsFoundAlready(const MapView& map, KeyframeId id,
+                    const std::vector<PlaceVerification>& attempts) {
+  const auto& covisible = map.FindKeyframe(id)->covisible;
+  return std::any_of(attempts.begin(), attempts.end(), [&](const PlaceVerification& attempt) {
+    return attempt.IsAccepted() &&
+           std::any_of(covisible.begin(), covisible.end(), [&](const CovisibleKeyframe& n) {
+             return n.id == attempt.candidate && n.shared_points >= kMinSharedPoints;
+           });
+  });
+}
+
 }  // namespace
 
 void Describe(OptionList& list, RelocaliserOptions& o) {
@@ -124,6 +136,7 @@ RelocalisationResult Relocaliser::Find(const FrameFeatures& features, const MapV
   RelocalisationResult result;
   std::size_t best = 0;
   for (const PlaceCandidate& place : places) {
+    if (IsFoundAlready(map, place.keyframe, result.attempts)) continue;
     result.candidates.push_back(place);
     result.attempts.push_back(
         VerifyPlace(features, map, place.keyframe, sensor_, options_.verification));
