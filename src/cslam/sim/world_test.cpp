@@ -68,15 +68,15 @@ TEST(TimesOfChange, ListsEveryStartAndEndOnce) {
 
 TEST(WithoutClass, KeepsTheOthersWithWhatTheyDo) {
   World world;
-  world.scene.objects = {{.name = "room"},
-                         {.name = "first", .class_id = 0},
-                         {.name = "box", .class_id = 28},
-                         {.name = "second", .class_id = 0},
-                         {.name = "dog", .class_id = 16}};
+  world.scene.objects = {{"room", kNoClass, {}, {}},
+                         {"first", 0, {}, {}},
+                         {"box", 28, {}, {}},
+                         {"second", 0, {}, {}},
+                         {"dog", 16, {}, {}}};
   world.timelines[2] = MakeTimeline();
   for (const int id : {1, 3, 4})
     world.animations[id] = [id](double) {
-      return BodyShape{.positions = std::vector<Eigen::Vector3f>(static_cast<std::size_t>(id))};
+      return BodyShape{std::vector<Eigen::Vector3f>(static_cast<std::size_t>(id)), {}, {}};
     };
   const World rest = WithoutClass(world, 0);
   ASSERT_EQ(rest.scene.objects.size(), 3U);
