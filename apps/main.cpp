@@ -16,6 +16,7 @@
 #include "cmd_config.h"
 #include "cmd_dataset.h"
 #include "cmd_eval.h"
+#include "cmd_map.h"
 #include "cmd_model.h"
 #include "cmd_run.h"
 #include "exit_codes.h"
@@ -61,6 +62,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   AddRunCommand(root, exit_code);
   AddEvalCommand(root, exit_code);
   AddDatasetCommand(root, exit_code);
+  AddMapCommand(root, exit_code);
   AddModelCommand(root, exit_code);
   AddConfigCommand(root, exit_code);
   AddExamples(root, {"run ~/data/rgbd_dataset_freiburg1_desk --out runs/desk",

@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+# SPDX-License-Identifier: Apache-2.0
+"""Tests 'changing-slam map' on a map of 5 + 3 keyframes that make_test_map writes."""
+
+import json
+import os
+import subprocess
+
+from cli_support import CliTestCase, main, run
+
+
+class MapTest(CliTestCase):
+    def setUp(self):
+        self.folder = self.make_folder()
+        self.map = self.folder / "a.map"
+        subprocess.run([os.environ["CSLAM_MAKE_TEST_MAP"], self.map], check=True, timeout=60)
+
+    def export(self, name, *arguments):
+        out = self.folder / name
+        result = run("map", "export", self.map, "--out", out, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, "")
+        return out.read_bytes()
+
+    def test_info_tells_maps_and_camera(self):
+        result = run("map", "info", self.map)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("changing-slam test", result.stdout)
+        self.assertIn("fx 517.3", result.stdout)
+        rows = [line.split() for line in result.stdout.splitlines()[-2:]]
+        self.assertEqual([row[:2] for row in rows], [["0", "5"], ["3", "3"]])
+
+    def test_info_as_json(self):
+        info = json.loads(run("map", "info", self.map, "--json").stdout)
+        self.assertEqual(info["format"], "map")
+        self.assertEqual(info["created"], "2026-11-22T04:00:00Z")
+        self.assertEqual(info["size_bytes"], self.map.stat().st_size)
+        self.assertEqual([m["keyframes"] for m in info["maps"]], [5, 3])
+
+    def test_exports_clouds(self):
+        points = json.loads(run("map", "info", self.map, "--json").stdout)["maps"][0]["points"]
+        ply = self.export("a.ply")
+        self.assertIn(f"element vertex {points}\n".encode(), ply)
+        pcd = self.export("a.pcd", "--map-id", "0")
+        self.assertIn(f"POINTS {points}\n".encode(), pcd)
+        self.assertEqual(len(pcd.split(b"DATA binary\n")[1]), 16 * points)
+        fine = self.export("fine.ply", "--dense", "--voxel", "0.02")
+        coarse = self.export("coarse.ply", "--dense", "--voxel", "0.5")
+        self.assertGreater(len(fine), 2 * len(coarse))
+
+    def test_exports_keyframes(self):
+        lines = self.export("a.txt").decode().splitlines()
+        poses = [line for line in lines if not line.startswith("#")]
+        self.assertEqual(len(poses), 5)
+        self.assertTrue(all(len(pose.split()) == 8 for pose in poses))
+
+    def test_exports_json(self):
+        data = json.loads(self.export("a.json"))
+        self.assertEqual(len(data["keyframes"]), 8)
+        self.assertEqual(len(data["keyframes"][0]["pose"]), 7)
+        self.assertEqual(len(data["points"][0]["position_m"]), 3)
+
+    def test_names_what_is_wrong_with_the_command(self):
+        export = ["map", "export", self.map, "--out"]
+        self.assert_one_line_error(run(*export, self.folder / "a.obj"), 2, ".ply, .pcd")
+        self.assert_one_line_error(run(*export, self.folder / "a.txt", "--dense"), 2, "--dense")
+        self.assert_one_line_error(run(*export, self.folder / "a.ply", "--map-id", 1), 2, "0, 3")
+        self.assert_one_line_error(run(*export, self.folder / "none" / "a.ply", "--map-id", 0), 1,
+                                   "none")
+
+    def test_names_what_is_wrong_with_the_file(self):
+        self.assert_one_line_error(run("map", "info", self.folder / "x.map"), 1, "x.map")
+        whole = self.map.read_bytes()
+        self.map.write_bytes(whole[:-1])
+        self.assert_one_line_error(run("map", "info", self.map), 1, "a.map", "damaged")
+        self.map.write_bytes(b"something else")
+        self.assert_one_line_error(run("map", "info", self.map), 1, "a.map", "not a map")
+
+
+if __name__ == "__main__":
+    main()
