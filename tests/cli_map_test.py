@@ -3,11 +3,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests 'changing-slam map' on a map of 5 + 3 keyframes that make_test_map writes."""
 
+import contextlib
 import json
 import os
+import sqlite3
+import struct
 import subprocess
+import zlib
 
 from cli_support import CliTestCase, main, run
+
+
+def checked_bytes(value):
+    """What a checksum is made of."""
+    if value is None:
+        return b"n\0"
+    if isinstance(value, int):
+        return struct.pack("<cq", b"i", value)
+    if isinstance(value, float):
+        return struct.pack("<cd", b"d", value)
+    data = value.encode() if isinstance(value, str) else value
+    return struct.pack("<cQ", b"b", len(data)) + (b"." + data if data else b"")
 
 
 class MapTest(CliTestCase):
@@ -37,6 +53,17 @@ class MapTest(CliTestCase):
         self.assertEqual(info["created"], "2026-11-22T04:00:00Z")
         self.assertEqual(info["size_bytes"], self.map.stat().st_size)
         self.assertEqual([m["keyframes"] for m in info["maps"]], [5, 3])
+
+    def test_is_readable_as_formats_md_says(self):
+        with contextlib.closing(sqlite3.connect(self.map)) as file:
+            self.assertEqual(file.execute("PRAGMA integrity_check").fetchall(), [("ok",)])
+            checksums = file.execute("SELECT name, num_rows, crc32 FROM checksums").fetchall()
+            self.assertEqual([c[0] for c in checksums], ["info", "levels", "keyframes", "points"])
+            for name, num_rows, crc in checksums:
+                rows = file.execute(f"SELECT * FROM {name} ORDER BY id").fetchall()
+                self.assertEqual(len(rows), num_rows)
+                data = b"".join(checked_bytes(value) for row in rows for value in row)
+                self.assertEqual(zlib.crc32(data), crc, name)
 
     def test_exports_clouds(self):
         points = json.loads(run("map", "info", self.map, "--json").stdout)["maps"][0]["points"]

@@ -70,6 +70,9 @@ void WriteLevels(TableWriter& row, const std::vector<double>& scales) {
 
 void WriteAliveKeyframe(TableWriter& row, const Keyframe& keyframe) {
   const KeyframeData& data = *keyframe.data;
+  CSLAM_CHECK(data.features.descriptors.size() == keyframe.points.size() &&
+                  data.features.semantics.size() == keyframe.points.size(),
+              "keyframe {}", keyframe.id.value());
   row.Null();  // forward_to
   WriteId(row, data.frame);
   row.Int(data.stamp.ns);

@@ -124,5 +124,67 @@ TEST(MapContents, AreRefusedWhenNumbersAreNone) {
   EXPECT_THAT(MessageFor([](auto& c) { c.points[0].normal.x() = kNan; }), HasSubstr("not finite"));
 }
 
+// One number of the contents becomes another, small enough to mean something.
+void Damage(MapContents& contents, Rng& rng) {
+  const auto value = static_cast<std::uint32_t>(rng.Index(14) == 0 ? 99 : rng.Index(12));
+  Keyframe& keyframe = contents.keyframes[rng.Index(contents.keyframes.size())];
+  MapPoint& point = contents.points[rng.Index(contents.points.size())];
+  switch (rng.Index(10)) {
+    case 0:
+      keyframe.parent = KeyframeId(value);
+      break;
+    case 1:
+      keyframe.forward_to = KeyframeId(value);
+      break;
+    case 2:
+      keyframe.map = MapId(value % 2);
+      break;
+    case 3:
+      keyframe.id = KeyframeId(value);
+      break;
+    case 4:
+      point.replaced_by = PointId(value);
+      break;
+    case 5:
+      point.reference = KeyframeId(value);
+      break;
+    case 6:
+      point.state = PointState(value % 4);
+      break;
+    case 7:
+      point.map = MapId(value % 2);
+      break;
+    case 8:
+      keyframe.data = nullptr;
+      break;
+    default:
+      if (!keyframe.points.empty()) keyframe.points[value % 20] = PointId(value);
+  }
+}
+
+TEST(MapContents, AreRefusedOrSoundWhateverIsInThem) {
+  const MapContents sound = ContentsOf(MakeTestMap());
+  Rng rng(3);
+  int num_refused = 0;
+  constexpr int kNumRounds = 3000;
+  for (int round = 0; round < kNumRounds; ++round) {
+    MapContents contents = sound;
+    for (std::uint64_t i = 0; i <= rng.Index(3); ++i)
+      Damage(contents, rng);
+    try {
+      const Map map(std::move(contents));
+      EXPECT_THAT(map.CheckInvariants(), IsEmpty());
+      for (std::uint32_t id = 0; id < 12; ++id) {
+        static_cast<void>(map.Resolve(PointId(id)));
+        static_cast<void>(map.T_world_keyframe(KeyframeId(id)));
+      }
+    } catch (const Error&) {
+      ++num_refused;
+    }
+  }
+  EXPECT_GT(num_refused, kNumRounds / 4);
+  EXPECT_LT(num_refused, kNumRounds);
+}
+
 }  // namespace
 }  // namespace cslam
