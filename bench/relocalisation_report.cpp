@@ -240,6 +240,16 @@ bool Summarise(const std::vector<FrameReport>& reports) {
          Median(errors_deg) < kMaxMedianDeg && worst <= kMaxErrorM;
 }
 
+// What the map itself is worth: of the frames it was made from, against the truth.
+double MedianRotationErrorDeg(const AteResult& ate) {
+  std::vector<double> errors_deg;
+  for (const PosePair& pair : ate.association.pairs) {
+    const PoseDifference error = Difference(pair.reference, Align(ate.alignment, pair.estimate));
+    errors_deg.push_back(error.angle_rad * 180.0 / std::numbers::pi);
+  }
+  return Median(errors_deg);
+}
+
 int Run(const Arguments& arguments) {
   const auto dataset = OpenDataset(arguments.sequence);
   const auto truth_file = dataset->ground_truth();
@@ -247,8 +257,10 @@ int Run(const Arguments& arguments) {
   const Trajectory truth = ReadTrajectory(*truth_file);
   const MappedHalf half = MapFirstHalf(*dataset, truth);
   const Trajectory frames = FinalTrajectory(half.run);
-  fmt::print("mapped from {} of {} frames, ATE {:.1f} mm; ", frames.size(), half.run.frames.size(),
-             1e3 * EvaluateAte(truth, frames).statistics_m.rmse);
+  const AteResult ate = EvaluateAte(truth, frames);
+  fmt::print("mapped from {} of {} frames, ATE {:.1f} mm, median rotation error {:.2f} deg; ",
+             frames.size(), half.run.frames.size(), 1e3 * ate.statistics_m.rmse,
+             MedianRotationErrorDeg(ate));
   fmt::print("{} keyframes, {} points, keyframes aligned to {:.1f} mm\n\n",
              half.run.snapshot->map.num_keyframes(), half.run.snapshot->map.num_points(),
              1e3 * half.alignment.rmse_m);

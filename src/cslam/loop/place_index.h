@@ -36,7 +36,9 @@ struct PlaceCandidate {
 // tell true neighbours from those that only share a key (Hamming embedding). A descriptor votes
 // for every keyframe that holds a neighbour of it, the more the fewer those are.
 //
-// Ready when constructed; results depend only on what it holds, not on the order it came in.
+// Ready when constructed; results depend only on what it holds, not on the order it came in. A
+// keyframe of 400 descriptors takes 24 KB; a query of 1000 at 10,000 keyframes 5 to 7 ms of CPU
+// (bench/bench_place.cpp).
 class PlaceIndex {
  public:
   explicit PlaceIndex(const PlaceIndexOptions& options = {});
