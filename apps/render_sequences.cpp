@@ -51,7 +51,7 @@ SequenceEntry FindEntry(std::string_view name) {
 
 // Throws UsageError for names that are unknown or there twice.
 std::vector<SequenceEntry> FindEntries(const std::vector<std::string>& names) {
-  if (names == std::vector<std::string>{kAllNames}) return RenderableSequences();
+  if (names.size() == 1 && names[0] == kAllNames) return RenderableSequences();
   std::vector<SequenceEntry> entries;
   for (auto name = names.begin(); name != names.end(); ++name) {
     if (*name == kAllNames) throw UsageError("'all' stands alone, without other names");
