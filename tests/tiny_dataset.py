@@ -48,6 +48,17 @@ def _board(width, height, seed=1):
     return lines
 
 
+def board(num_images):
+    """All that write() ever shows with so many images, as gray lines."""
+    return _board(WIDTH + num_images, HEIGHT + num_images)
+
+
+def view(lines, index, num_images):
+    """What image index of num_images shows of the board."""
+    right, down = _offset_px(index, num_images)
+    return [line[right:right + WIDTH] for line in lines[down:down + HEIGHT]]
+
+
 def stamp(index):
     return f"{1000 + index / RATE_HZ:.6f}"
 
@@ -64,11 +75,10 @@ def write(folder, num_frames=20, num_images=20, camera_file=True):
     folder = pathlib.Path(folder)
     (folder / "rgb").mkdir(parents=True)
     (folder / "depth").mkdir()
-    board = _board(WIDTH + num_images, HEIGHT + num_images)
+    lines = board(num_images)
     for index in range(num_images):
-        right, down = _offset_px(index, num_images)
-        rows = [bytes(v for value in line[right:right + WIDTH] for v in (value, value, value))
-                for line in board[down:down + HEIGHT]]
+        rows = [bytes(v for value in line for v in (value, value, value))
+                for line in view(lines, index, num_images)]
         (folder / "rgb" / f"{index:04}.png").write_bytes(png(rows, 8, 3))
         (folder / "depth" / f"{index:04}.png").write_bytes(flat_depth(DEPTH_M))
     lists = {"rgb": "# stamp file\n", "depth": "# stamp file\n"}
