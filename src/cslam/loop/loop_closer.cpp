@@ -65,6 +65,20 @@ std::string WhyTooFar(const LoopEvidence& evidence, const LoopOptions& options) 
   return {};
 }
 
+// Why no camera can have gone from one map to the other, were they merged so; empty if one can.
+// T_match_query: between the two worlds.
+std::string WhyTooFast(const MapView& map, const Keyframe& query, const Keyframe& match,
+                       const Se3& T_match_query, const LoopOptions& options) {
+  const auto transition = TransitionBetween(map, match.map, query.map);
+  if (!transition) return {};
+  const Se3 T_match_last = map.FindKeyframe(transition->a)->T_world_camera;
+  const Se3 T_match_first = T_match_query * map.FindKeyframe(transition->b)->T_world_camera;
+  const double way_m = Difference(T_match_last, T_match_first).distance_m;
+  if (way_m <= options.max_drift_m + options.max_speed_m_s * transition->time_s) return {};
+  return fmt::format("would take the camera {:.1f} m in {:.1f} s from one map to the other", way_m,
+                     transition->time_s);
+}
+
 // Why the depth of both sides does not fit after the correction; empty if it does.
 std::string WhyContradicted(const DepthComparison& depth, const DepthCheckOptions& options) {
   if (depth.num_compared() < options.min_compared) {
@@ -164,6 +178,9 @@ LoopRecord LoopCloser::Examine(const Keyframe& query, const PlaceCandidate& cand
     record.evidence.drift_m = drift.distance_m;
     record.evidence.drift_rad = drift.angle_rad;
     record.reason = WhyTooFar(record.evidence, options_);
+  } else {
+    record.reason = WhyTooFast(map, query, match,
+                               seen.T_world_camera * query.T_world_camera.Inverse(), options_);
   }
   return record;
 }
@@ -208,17 +225,18 @@ void LoopCloser::Consider(LoopRecord& record, const MapView& map, const PointFil
   const LoopEdge loop = EdgeOf(record);
   const bool is_known = pending_ && Agree(pending_->loop, loop, map);
   pending_ = Hypothesis{.loop = loop, .sightings = is_known ? pending_->sightings + 1 : 1};
+  const int needed =
+      record.query_map == record.match_map ? options_.confirmations : options_.merge_confirmations;
   int confirmations = pending_->sightings;
-  if (confirmations < options_.confirmations) {
+  if (confirmations < needed) {
     // Neighbours may be those that were counted as earlier sightings, so the two do not add up.
     confirmations =
-        std::max(confirmations,
-                 1 + CountConfirmingNeighbours(loop, map, may_use, options_.confirmations - 1));
+        std::max(confirmations, 1 + CountConfirmingNeighbours(loop, map, may_use, needed - 1));
   }
   record.evidence.num_confirmations = confirmations;
-  if (confirmations >= options_.confirmations) return;
+  if (confirmations >= needed) return;
   record.verdict = LoopVerdict::kPending;
-  record.reason = fmt::format("found by {} keyframes of {}", confirmations, options_.confirmations);
+  record.reason = fmt::format("found by {} of {} keyframes", confirmations, needed);
 }
 
 void LoopCloser::MissOne() {

@@ -66,7 +66,9 @@ void DescribeEvidence(OptionList& list, LoopOptions& o) {
            "Smallest share of the cells of a 4 x 4 grid over the image that hold an inlier: one "
            "thing, moved, fills few.");
   list.Add("confirmations", o.confirmations, {1, 100}, "keyframes",
-           "Keyframes that have to find the same place and agree where it is.");
+           "Keyframes that have to find the same place and agree where it is, within one map.");
+  list.Add("merge_confirmations", o.merge_confirmations, {1, 100}, "keyframes",
+           "The same for two maps, about whose drift against each other nothing is known.");
   list.Add("confirming_neighbours", o.confirming_neighbours, {0, 100}, "keyframes",
            "Neighbours of a keyframe that are asked at once, without waiting for later ones.");
   list.Add("max_missed", o.max_missed, {0, 100}, "keyframes",
@@ -86,6 +88,9 @@ void DescribeDrift(OptionList& list, LoopOptions& o) {
            "Loops that turn the newer end further are refused: this much always ...");
   list.Add("max_drift_angle_per_m", o.max_drift_deg_per_m, {0.0, 180.0}, "deg/m",
            "... plus this much per metre of the way.");
+  list.Add("max_speed", o.max_speed_m_s, {0.0, 1000.0}, "m/s",
+           "Two maps are not merged if the camera would have had to travel faster (plus max_drift) "
+           "from the one to the other: a walk is 1.4 m/s.");
   list.Add("min_drift", o.min_drift_m, {0.0, 10.0}, "m",
            "A loop that moves less than this and turns less than the next only fuses points: one "
            "frame's pose is no more exact than the map is.");

@@ -49,7 +49,8 @@ struct LoopOptions {
   int min_ransac_inliers = 15;
   int min_inliers = 40;
   double min_spread = 0.375;
-  int confirmations = 3;
+  int confirmations = 2;
+  int merge_confirmations = 3;
   int confirming_neighbours = 5;
   int max_missed = 2;
   double agreement_m = 0.10;
@@ -58,6 +59,7 @@ struct LoopOptions {
   double max_drift_share = 0.1;
   double max_drift_deg = 10.0;
   double max_drift_deg_per_m = 2.0;
+  double max_speed_m_s = 1.5;
   double min_drift_m = 0.01;
   double min_drift_deg = 0.5;
   DepthCheckOptions depth_check;

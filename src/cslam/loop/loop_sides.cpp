@@ -3,6 +3,7 @@
 #include "cslam/loop/loop_sides.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace cslam {
 
@@ -40,6 +41,28 @@ double PathLength(const MapView& map, const Keyframe& a, const Keyframe& b) {
     previous = keyframe;
   }
   return length;
+}
+
+std::optional<MapTransition> TransitionBetween(const MapView& map, MapId a, MapId b) {
+  std::vector<const Keyframe*> keyframes;
+  for (const KeyframeId id : map.Keyframes()) {
+    const Keyframe& keyframe = *map.FindKeyframe(id);
+    if (keyframe.map == a || keyframe.map == b) keyframes.push_back(&keyframe);
+  }
+  std::stable_sort(keyframes.begin(), keyframes.end(), [](const Keyframe* x, const Keyframe* y) {
+    return x->data->stamp < y->data->stamp;
+  });
+  std::optional<MapTransition> best;
+  for (std::size_t i = 1; i < keyframes.size(); ++i) {
+    const Keyframe* first = keyframes[i - 1];
+    const Keyframe* second = keyframes[i];
+    if (first->map == second->map) continue;
+    const double time_s = SecondsBetween(second->data->stamp, first->data->stamp);
+    if (best && best->time_s <= time_s) continue;
+    if (first->map != a) std::swap(first, second);
+    best = MapTransition{first->id, second->id, time_s};
+  }
+  return best;
 }
 
 LoopSides SidesOf(const MapView& map, KeyframeId fixed_end, KeyframeId moving_end,

@@ -7,6 +7,7 @@
 #include "cslam/map/map_view.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,14 @@ std::vector<std::uint8_t> Neighbourhood(const MapView& map, const Keyframe& keyf
 
 // The way between two keyframes of one map, along the keyframes between them.
 double PathLength(const MapView& map, const Keyframe& a, const Keyframe& b);
+
+// The two keyframes of different maps between which the least time passed.
+struct MapTransition {
+  KeyframeId a;
+  KeyframeId b;
+  double time_s = 0.0;
+};
+std::optional<MapTransition> TransitionBetween(const MapView& map, MapId a, MapId b);
 
 // Keyframes on the two sides of a loop: its ends and their best neighbours, each on one side only.
 struct LoopSides {
