@@ -21,8 +21,8 @@ cv::Mat DecodeColorImage(std::string_view bytes, const std::filesystem::path& na
 // H x W, CV_16UC1, from a 16-bit single-channel PNG; any other type is an error.
 cv::Mat ReadDepthImage(const std::filesystem::path& path);
 
-// CV_8UC1, CV_8UC3 (BGR) or CV_16UC1. compression: zlib level 0 to 9 (for colour: none or some). The file appears under its
-// name only when complete.
+// CV_8UC1, CV_8UC3 (BGR) or CV_16UC1. compression: zlib level 0 to 9 (for colour: none or some).
+// The file appears under its name only when complete.
 void WritePng(const std::filesystem::path& path, const cv::Mat& image, int compression = 6);
 
 }  // namespace cslam
