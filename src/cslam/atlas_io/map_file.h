@@ -36,6 +36,10 @@ void SaveMap(const std::filesystem::path& path, const MapView& map, const MapFil
 // damaged. What it returns equals what was saved, and its invariants hold.
 SavedMap LoadMap(const std::filesystem::path& path);
 
+// The first id above those of all maps here; one that was merged into another leaves no trace.
+// Keyframe and point ids go on at num_keyframe_ids() and num_point_ids().
+MapId NextMapId(const MapView& map);
+
 // Throws Error unless the map was made with this camera: points of view and scales would not fit.
 void RequireSameCamera(const std::filesystem::path& path, const MapFileInfo& info,
                        const Camera& camera);

@@ -230,6 +230,11 @@ TEST(MapFile, SaysThatAFolderIsMissing) {
               AllOf(HasSubstr("cannot create"), HasSubstr(file.string())));
 }
 
+TEST(NextMapId, ComesAfterAllMaps) {
+  EXPECT_EQ(NextMapId(Map(test::kLevelScales)), MapId(0));
+  EXPECT_EQ(NextMapId(test::MakeAtlas()), MapId(4));
+}
+
 TEST(MapFile, IsRefusedWithAnotherCamera) {
   const MapFileInfo info = test::MakeMapFileInfo();
   Camera camera = info.camera.camera;

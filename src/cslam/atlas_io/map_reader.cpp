@@ -307,6 +307,15 @@ SavedMap LoadMap(const fs::path& path) {
   }
 }
 
+MapId NextMapId(const MapView& map) {
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < map.num_keyframe_ids(); ++i) {
+    const MapId id = map.KeyframeSlot(i).map;
+    if (id.valid()) next = std::max(next, id.value() + 1);
+  }
+  return MapId(next);
+}
+
 void RequireSameCamera(const fs::path& path, const MapFileInfo& info, const Camera& camera) {
   const Camera& saved = info.camera.camera;
   if (saved == camera) return;
