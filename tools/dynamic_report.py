@@ -20,6 +20,7 @@ import benchmark
 PERFECT = "perfect"  # a row's detector: the sequence's own detections.json
 MODEL = "model"      # --model, or the best installed
 NONE = "none"
+RECORDED = "recorded"  # --model: detections.json for these rows too, to be degraded with --set
 
 NO_BRIDGE = ["tracking.objects.bridge=0"]
 NO_FILTER = ["tracking.objects.filter_motion=false"]
@@ -98,7 +99,7 @@ def figures_of(report):
 def run_arguments(options, sequence, row, mode):
     detector, settings = ROWS[row]
     arguments = list(MODES[mode])
-    if detector == PERFECT:
+    if detector == PERFECT or (detector == MODEL and options.model == RECORDED):
         arguments += ["--detections", str(sequence["path"] / "detections.json")]
     elif detector == NONE:
         arguments += ["--detector", "none"]
@@ -176,7 +177,8 @@ def parse_arguments():
                "  tools/dynamic_report.py --mode inline data/walking_xyz data/empty_walking_xyz\n"
                "  tools/dynamic_report.py --mode live --mode max --row 'all' --model nanodet-g \\\n"
                "      bonn_crowd_part=../shared/data/bonn_crowd_part \\\n"
-               "      bonn_empty=../shared/data/bonn_crowd_part:200")
+               "      bonn_empty=../shared/data/bonn_crowd_part:200\n"
+               "  tools/dynamic_report.py --model recorded --set detector.degrade.drop=0.3 data/x")
     parser.add_argument("sequences", nargs="+", type=benchmark.parse_sequence,
                         metavar="[NAME=]PATH[:FRAMES]", help="folders in TUM layout")
     parser.add_argument("--row", action="append", dest="rows", default=[], metavar="TEXT",
@@ -184,7 +186,8 @@ def parse_arguments():
     parser.add_argument("--mode", action="append", choices=MODES, dest="modes",
                         help="can be repeated (default: inline)")
     parser.add_argument("--runs", type=int, default=5, help="threaded runs of each (default 5)")
-    parser.add_argument("--model", help="of the rows with a network (default: the best installed)")
+    parser.add_argument("--model", help="of the rows with a network (default: the best installed); 'recorded' "
+                             "takes the sequence's detections.json in its place")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
                         help="for every run, after the row's own; can be repeated")
     parser.add_argument("--binary", default=str(benchmark.ROOT / "build/release/changing-slam"))
