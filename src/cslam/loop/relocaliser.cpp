@@ -89,7 +89,8 @@ void Describe(OptionList& list, RelocaliserOptions& o) {
   list.Group("verification", o.verification);
 }
 
-std::vector<PlaceCandidate> RankPlaces(const MapView& map, std::vector<PlaceCandidate> candidates) {
+std::vector<PlaceCandidate> RankPlaces(const MapView& map,
+                                       const std::vector<PlaceCandidate>& candidates) {
   std::vector<double> score_of(map.num_keyframe_ids(), 0.0);
   for (const PlaceCandidate& candidate : candidates)
     score_of[candidate.keyframe.index()] = candidate.score;
@@ -130,7 +131,7 @@ RelocalisationResult Relocaliser::Find(const FrameFeatures& features, const MapV
       index.Query(SelectDescriptors(features, keypoints), is_excluded,
                   static_cast<std::size_t>(options_.max_results));
   std::erase_if(places, [&](const auto& place) { return place.votes < options_.min_votes; });
-  places = RankPlaces(map, std::move(places));
+  places = RankPlaces(map, places);
   places.resize(std::min(places.size(), static_cast<std::size_t>(options_.max_candidates)));
 
   RelocalisationResult result;

@@ -64,6 +64,7 @@ class Relocaliser {
 
 // Candidates whose neighbours are candidates, too, first: a place is seen by several keyframes.
 // Of those that share points only the best is listed before the best of other places.
-std::vector<PlaceCandidate> RankPlaces(const MapView& map, std::vector<PlaceCandidate> candidates);
+std::vector<PlaceCandidate> RankPlaces(const MapView& map,
+                                       const std::vector<PlaceCandidate>& candidates);
 
 }  // namespace cslam
