@@ -13,6 +13,7 @@ std::vector<std::uint8_t> Neighbourhood(const MapView& map, const Keyframe& keyf
   is_near[keyframe.id.index()] = 1;
   for (const CovisibleKeyframe& first : keyframe.covisible) {
     is_near[first.id.index()] = 1;
+    if (first.shared_points < min_shared_points) continue;
     for (const CovisibleKeyframe& second : map.FindKeyframe(first.id)->covisible) {
       if (second.shared_points >= min_shared_points) is_near[second.id.index()] = 1;
     }

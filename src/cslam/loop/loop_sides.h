@@ -14,7 +14,8 @@
 namespace cslam {
 
 // The keyframes that look at what the given one sees: itself, all that share a point with it, those
-// that share many with one of these, and those inserted just before or after. One flag per id.
+// that share many with one that shares many, and those inserted just before or after. One flag per
+// id.
 std::vector<std::uint8_t> Neighbourhood(const MapView& map, const Keyframe& keyframe,
                                         int min_shared_points, int min_keyframes_apart);
 

@@ -284,5 +284,42 @@ TEST_F(MapTest, TwoMapsLiveSideBySide) {
   EXPECT_THROW(map_.AddObservation(elsewhere, k0_, 0), InternalError);
 }
 
+TEST_F(MapTest, MergingTurnsTheTreeOfTheMapThatGoes) {
+  map_.AddKeyframe(MakeKeyframe(3, 10, 0.0, {}, MapId(1)));
+  map_.AddKeyframe(MakeKeyframe(4, 10, 1.0, KeyframeId(3), MapId(1)));
+  map_.AddKeyframe(MakeKeyframe(5, 10, 2.0, KeyframeId(4), MapId(1)));
+  map_.AddKeyframe(MakeKeyframe(6, 10, 2.0, KeyframeId(3), MapId(1)));
+  const PointId elsewhere = AddSeenPoint({KeyframeId(3)}, 0);
+  map_.MergeMaps(MapId(0), MapId(1), k1_, KeyframeId(5));
+  const auto parent_of = [&](std::uint32_t id) {
+    return map_.FindKeyframe(KeyframeId(id))->parent;
+  };
+  EXPECT_EQ(parent_of(5), k1_);
+  EXPECT_EQ(parent_of(4), KeyframeId(5));
+  EXPECT_EQ(parent_of(3), KeyframeId(4));
+  EXPECT_EQ(parent_of(6), KeyframeId(3));
+  EXPECT_FALSE(parent_of(0).valid());
+  for (std::uint32_t id = 0; id < 7; ++id)
+    EXPECT_EQ(map_.FindKeyframe(KeyframeId(id))->map, MapId(0));
+  EXPECT_EQ(map_.FindPoint(elsewhere)->map, MapId(0));
+  EXPECT_TRUE(map_.AddObservation(elsewhere, k0_, 0));
+}
+
+TEST_F(MapTest, MapsAreMergedAtKeyframesOfTheirs) {
+  map_.AddKeyframe(MakeKeyframe(3, 10, 0.0, {}, MapId(1)));
+  const KeyframeId other(3);
+  EXPECT_THROW(map_.MergeMaps(MapId(0), MapId(0), k0_, k1_), InternalError);
+  EXPECT_THROW(map_.MergeMaps(MapId(0), MapId(1), other, k0_), InternalError);
+  EXPECT_THROW(map_.MergeMaps(MapId(0), MapId(1), k0_, k1_), InternalError);
+}
+
+TEST_F(MapTest, EpochGrowsWithCorrectionsAndWhenAllIsForgotten) {
+  const std::uint32_t before = map_.correction_epoch();
+  map_.AdvanceCorrectionEpoch();
+  EXPECT_EQ(map_.Snapshot().correction_epoch(), before + 1);
+  map_.Clear();
+  EXPECT_EQ(map_.correction_epoch(), before + 2);
+}
+
 }  // namespace
 }  // namespace cslam
