@@ -12,6 +12,7 @@ this machine: let nothing else run.
 import argparse
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -110,13 +111,16 @@ def run_arguments(options, sequence, row, mode):
     return arguments
 
 
-def earlier_run(folder, commit, arguments):
+def earlier_run(folder, commit, sequence, arguments):
     """run.json of a run that need not be repeated, or None."""
+    wanted = ["run", str(sequence["path"]), "--out", str(folder), *arguments]
+    if sequence["frames"]:
+        wanted += ["--frames", str(sequence["frames"])]
     try:
         report = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    is_same = report["commit"] == commit and set(arguments) <= set(report["arguments"])
+    is_same = report["commit"] == commit and report["arguments"][-len(wanted):] == wanted
     return report if is_same and not report["was_interrupted"] else None
 
 
@@ -129,9 +133,10 @@ def measure(options, commit, sequence, row, mode):
     runs = []
     for i in range(1 if mode == "inline" else options.runs):
         folder = place / str(i)
-        report = earlier_run(folder, commit, arguments)
+        report = earlier_run(folder, commit, sequence, arguments)
         if report is None:
             print(f"{sequence['name']}: {row}, {mode}, run {i + 1}", file=sys.stderr, flush=True)
+            shutil.rmtree(folder, ignore_errors=True)
             folder.parent.mkdir(parents=True, exist_ok=True)
             report = benchmark.run_once(options.binary, sequence, arguments, folder)
         runs.append(figures_of(report))
