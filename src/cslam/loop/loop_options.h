@@ -55,10 +55,10 @@ struct LoopOptions {
   int max_missed = 2;
   double agreement_m = 0.10;
   double agreement_deg = 3.0;
-  double max_drift_m = 0.5;
-  double max_drift_share = 0.1;
+  double max_drift_m = 0.3;
+  double max_drift_share = 0.05;
   double max_drift_deg = 10.0;
-  double max_drift_deg_per_m = 2.0;
+  double max_drift_deg_per_m = 1.0;
   double max_speed_m_s = 1.5;
   double min_drift_m = 0.01;
   double min_drift_deg = 0.5;
