@@ -13,6 +13,18 @@ namespace {
 // has to outweigh them all, or it closes only in part.
 constexpr double kLoopSigmaShare = 0.05;
 
+// Whether the map has a loop in it: its correction may have come too late and been refused. Bundle
+// adjustment moves the ends of one that was applied by far less than this.
+bool IsClosed(const MapView& map, const LoopEdge& loop) {
+  constexpr double kMostM = 0.2;
+  constexpr double kMostRad = 0.1;
+  const auto T_world_match = map.T_world_keyframe(loop.match);
+  const auto T_world_query = map.T_world_keyframe(loop.query);
+  if (!T_world_match || !T_world_query) return false;
+  const PoseDifference left = Difference(*T_world_match * loop.T_match_query, *T_world_query);
+  return left.distance_m < kMostM && left.angle_rad < kMostRad;
+}
+
 class GraphBuilder {
  public:
   GraphBuilder(const MapView& map, MapId id, const EssentialGraphOptions& options)
@@ -73,6 +85,7 @@ std::vector<KeyframeMove> SpreadLoop(const MapView& map, const LoopEdge& loop,
     }
   }
   for (const LoopEdge& e : earlier) {
+    if (!IsClosed(map, e)) continue;
     const auto match = map.Resolve(e.match);
     const auto query = map.Resolve(e.query);
     if (!match || !query || !builder.Has(match->keyframe) || !builder.Has(query->keyframe))

@@ -68,8 +68,9 @@ TEST_F(EssentialGraphTest, KeepsAnEarlierLoopClosed) {
   EXPECT_LT(change(moves_with), 0.9 * change(moves_without));
 }
 
-TEST_F(EssentialGraphTest, IgnoresEarlierLoopsOfKeyframesThatNeverWere) {
-  const std::vector<LoopEdge> earlier = {{KeyframeId(0), KeyframeId(99), Se3()}};
+TEST_F(EssentialGraphTest, IgnoresEarlierLoopsThatWereNeverClosed) {
+  const std::vector<LoopEdge> earlier = {{KeyframeId(0), KeyframeId(99), Se3()},
+                                         {KeyframeId(0), KeyframeId(15), Se3()}};
   const auto with = SpreadLoop(mapper_.map(), TrueLoop(0, 30), earlier, {});
   const auto without = SpreadLoop(mapper_.map(), TrueLoop(0, 30), {}, {});
   for (std::size_t i = 0; i < with.size(); ++i)
