@@ -76,20 +76,23 @@ bool TakesTint(PropKind kind) {
   }
 }
 
-// The picture with its hues turned; grey stays grey, and wood stays wood.
+// The picture with its hues turned, paler; grey stays grey, and wood stays wood.
 cv::Mat Tinted(const cv::Mat& bgr, int tint) {
   if (tint == 0) return bgr;
   constexpr int kHues = 180;     // of OpenCV's 8-bit HSV
   constexpr int kWoodFirst = 6;  // orange to brown
   constexpr int kWoodLast = 26;
-  constexpr int kStep = 67;  // visits all hues, neighbours far apart
+  constexpr int kStep = 67;       // visits all hues, neighbours far apart
+  constexpr double kPale = 0.65;  // of the saturation: detectors know no glaring furniture
   cv::Mat hsv;
   cv::cvtColor(bgr, hsv, cv::COLOR_BGR2HSV);
   for (int y = 0; y < hsv.rows; ++y) {
     for (int x = 0; x < hsv.cols; ++x) {
       auto& pixel = hsv.at<cv::Vec3b>(y, x);
       const bool is_wood = pixel[0] >= kWoodFirst && pixel[0] <= kWoodLast;
-      if (!is_wood) pixel[0] = static_cast<uchar>((pixel[0] + tint * kStep) % kHues);
+      if (is_wood) continue;
+      pixel[0] = static_cast<uchar>((pixel[0] + tint * kStep) % kHues);
+      pixel[1] = static_cast<uchar>(kPale * pixel[1]);
     }
   }
   cv::Mat result;

@@ -4,7 +4,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace cslam {
 namespace {
@@ -14,13 +16,30 @@ constexpr std::string_view kCcBy = "BlendSwap-CC-BY";
 constexpr std::string_view kKator = "KatorLegaz";
 constexpr std::string_view kScopia = "Scopia";
 
-// Authors and licences: docs/assets.md.
+constexpr int kUnused = -1;
+
+// Authors and licences: docs/assets.md. What is fetched depends on this list's order, too: models
+// no longer used stay in it until something else is added.
 constexpr auto kModels = std::to_array<PackageModel>({
-    {PropKind::kChair, kCc0, "/blendswap-cc-0/chair2/chair2.obj"},
-    {PropKind::kChair, kCcBy, "/blendswap-cc-by/plaidChair/plaidChair.obj"},
-    {PropKind::kChair, kCc0, "/blendswap-cc-0/chairWithCushion/chairWithCushion.obj"},
-    {PropKind::kChair, kCcBy, "/blendswap-cc-by/ella_chair_f/ella_chair_f.obj"},
-    {PropKind::kChair, kScopia, "/scopia/chair4/chair4.obj"},
+    {PropKind::kChair, kCc0, "/blendswap-cc-0/chair2/chair2.obj", 0.0, 1.15, {}, {}, 1},
+    {PropKind::kChair, kCcBy, "/blendswap-cc-by/plaidChair/plaidChair.obj", 0.0, 1.15, {}, {}, 3},
+    {PropKind::kChair,
+     kCc0,
+     "/blendswap-cc-0/chairWithCushion/chairWithCushion.obj",
+     0.0,
+     1.15,
+     {},
+     {},
+     kUnused},
+    {PropKind::kChair,
+     kCcBy,
+     "/blendswap-cc-by/ella_chair_f/ella_chair_f.obj",
+     0.0,
+     1.15,
+     {},
+     {},
+     0},
+    {PropKind::kChair, kScopia, "/scopia/chair4/chair4.obj", 0.0, 1.15, {}, {}, 2},
     {PropKind::kArmchair, kScopia, "/scopia/armchair/armchair.obj", 0.0, 1.2, {}, "sillon_ref"},
     {PropKind::kArmchair,
      kKator,
@@ -87,6 +106,15 @@ constexpr auto kPosters = std::to_array<PackagePoster>({
 
 std::span<const PackageModel> PackageModels() {
   return kModels;
+}
+
+std::vector<PackageModel> ModelsOf(PropKind kind) {
+  std::vector<PackageModel> models;
+  std::ranges::copy_if(kModels, std::back_inserter(models), [&](const PackageModel& model) {
+    return model.kind == kind && model.rank >= 0;
+  });
+  std::ranges::stable_sort(models, {}, &PackageModel::rank);
+  return models;
 }
 
 std::span<const PackageTexture> PackageTextures() {

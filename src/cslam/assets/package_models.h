@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cslam {
 
@@ -19,10 +20,13 @@ struct PackageModel {
   double max_stretch = 1.15;     // of one axis against another, to fill the standard size
   std::string_view screen = {};  // the material that shows a picture
   std::string_view fabric = {};  // the material that gets a rich pattern
+  int rank = 0;                  // among the kind's variants; negative: fetched but not used
 };
 
-// All of them; those of a kind are its variants, in this order. Kinds without any are procedural.
 std::span<const PackageModel> PackageModels();
+
+// The variants of a kind, best known to detectors first. Kinds without any are procedural.
+std::vector<PackageModel> ModelsOf(PropKind kind);
 
 // A picture of the package ufoai-textures.
 struct PackageTexture {

@@ -31,13 +31,6 @@ Pick PickFrom(std::size_t count, int variant) {
   return {number % count, static_cast<int>(number / count % 1000)};
 }
 
-std::vector<PackageModel> ModelsOf(PropKind kind) {
-  std::vector<PackageModel> models;
-  std::ranges::copy_if(PackageModels(), std::back_inserter(models),
-                       [&](const PackageModel& model) { return model.kind == kind; });
-  return models;
-}
-
 // The texture laid side by side, then aged unevenly so that no two places look the same.
 cv::Mat Laid(const cv::Mat& tile, int count, double texels_per_m, Rng rng) {
   constexpr double kShade = 0.16;  // share by which light and dark differ from the mean
@@ -54,6 +47,31 @@ cv::Mat Laid(const cv::Mat& tile, int count, double texels_per_m, Rng rng) {
     }
   }
   return image;
+}
+
+// Upright pictures in white mounts: detectors take wide ones on a wall for screens.
+constexpr int kPosterWidthPx = 1000;
+constexpr double kHeightPerWidth = 1.35;
+constexpr double kMountShare = 0.07;  // of the poster's width, on each side
+
+cv::Mat UprightPart(const cv::Mat& image, double height_share, Rng& rng) {
+  const double height_px = std::min(height_share * image.rows, kHeightPerWidth * image.cols);
+  const cv::Size part(static_cast<int>(height_px / kHeightPerWidth), static_cast<int>(height_px));
+  return image(cv::Rect(
+      {RandomInt(rng, 0, image.cols - part.width), RandomInt(rng, 0, image.rows - part.height)},
+      part));
+}
+
+cv::Mat Framed(const cv::Mat& picture) {
+  constexpr double kWhite = 215.0;  // grey level
+  const int mount_px = static_cast<int>(kMountShare * kPosterWidthPx);
+  const int width_px = kPosterWidthPx - 2 * mount_px;
+  cv::Mat poster;
+  cv::resize(picture, poster, {width_px, width_px * picture.rows / picture.cols}, 0.0, 0.0,
+             cv::INTER_AREA);
+  cv::copyMakeBorder(poster, poster, mount_px, mount_px, mount_px, mount_px, cv::BORDER_CONSTANT,
+                     cv::Scalar::all(kWhite));
+  return poster;
 }
 
 }  // namespace
@@ -117,22 +135,11 @@ int PackageProps::AddSurface(SceneBuilder& scene, SurfaceKind kind, int variant)
 }
 
 cv::Mat PackageProps::Poster(int variant) const {
-  constexpr int kWidthPx = 1000;
-  constexpr double kPartShare = 0.6;  // of a picture's sides that later rounds show
+  constexpr double kPartShare = 0.6;  // of a picture's height that later rounds show
   const Pick pick = PickFrom(PackagePosters().size(), variant);
-  cv::Mat image = ReadColorImage(folder_.File(PosterFile(PackagePosters()[pick.index])));
-  if (pick.round > 0) {
-    Rng rng(kLookSeed, static_cast<std::uint64_t>(variant));
-    const cv::Size part(static_cast<int>(kPartShare * image.cols),
-                        static_cast<int>(kPartShare * image.rows));
-    image = image(cv::Rect(
-        {RandomInt(rng, 0, image.cols - part.width), RandomInt(rng, 0, image.rows - part.height)},
-        part));
-  }
-  cv::Mat poster;
-  cv::resize(image, poster, {kWidthPx, kWidthPx * image.rows / image.cols}, 0.0, 0.0,
-             cv::INTER_AREA);
-  return poster;
+  const cv::Mat image = ReadColorImage(folder_.File(PosterFile(PackagePosters()[pick.index])));
+  Rng rng(kLookSeed, static_cast<std::uint64_t>(variant));
+  return Framed(UprightPart(image, pick.round > 0 ? kPartShare : 1.0, rng));
 }
 
 }  // namespace cslam

@@ -20,7 +20,7 @@ RoomShell OfficeShell(SceneBuilder& scene, const PropLibrary& props, std::uint64
   };
   RoomShell shell;
   shell.size_m = {kRoomLengthM, kRoomDepthM};
-  shell.walls = {surface(SurfaceKind::kPlaster), surface(SurfaceKind::kBrick),
+  shell.walls = {surface(SurfaceKind::kPlaster), surface(SurfaceKind::kPlaster),
                  surface(SurfaceKind::kPlaster), surface(SurfaceKind::kWallpaper)};
   shell.floor = surface(SurfaceKind::kParquet);
   shell.ceiling = surface(SurfaceKind::kPlaster);
@@ -30,31 +30,31 @@ RoomShell OfficeShell(SceneBuilder& scene, const PropLibrary& props, std::uint64
 void FurnishWalls(RoomDecorator& room) {
   for (const double along : {0.7, 2.7, 4.5, 6.3})
     room.AgainstWall(PropKind::kBookcase, Wall::kNorth, along);
-  room.Hang(Wall::kNorth, 1.7, 1.0, 0.85);
-  room.Hang(Wall::kNorth, 3.6, 1.15, 0.8);
-  room.Hang(Wall::kNorth, 5.4, 0.95, 0.8);
+  room.Hang(Wall::kNorth, 1.7, 1.05, 0.64);
+  room.Hang(Wall::kNorth, 3.6, 1.20, 0.60);
+  room.Hang(Wall::kNorth, 5.4, 1.00, 0.60);
   room.AgainstWall(PropKind::kCarton, Wall::kNorth, 1.7, 0.2);
   room.AgainstWall(PropKind::kCabinet, Wall::kNorth, 5.4);
 
   room.Put(PropKind::kPottedPlant, AtWall(room.room(), Wall::kWest, 6.2, 0.42));
-  room.Hang(Wall::kWest, 5.2, 1.0, 0.9);
+  room.Hang(Wall::kWest, 5.2, 1.05, 0.68);
   room.Put(PropKind::kBooks, room.AgainstWall(PropKind::kCabinet, Wall::kWest, 4.3));
-  room.Hang(Wall::kWest, 4.0, 1.2, 0.7);
+  room.Hang(Wall::kWest, 4.0, 1.25, 0.52);
   room.AgainstWall(PropKind::kBookcase, Wall::kWest, 3.1);
-  room.Hang(Wall::kWest, 2.0, 0.9, 1.0);
+  room.Hang(Wall::kWest, 2.0, 0.95, 0.75);
   room.Put(PropKind::kCarton, room.AgainstWall(PropKind::kCarton, Wall::kWest, 1.2));
 
   room.Put(PropKind::kCarton, room.AgainstWall(PropKind::kCabinet, Wall::kEast, 0.9));
-  room.Hang(Wall::kEast, 1.9, 0.8, 1.0);
+  room.Hang(Wall::kEast, 1.9, 0.85, 0.75);
   room.AgainstWall(PropKind::kBookcase, Wall::kEast, 3.0);
-  room.Hang(Wall::kEast, 4.0, 1.0, 0.8);
-  room.Hang(Wall::kEast, 5.3, 0.7, 1.0);
+  room.Hang(Wall::kEast, 4.0, 1.05, 0.60);
+  room.Hang(Wall::kEast, 5.3, 0.75, 0.75);
 
   room.Door(Wall::kSouth, 1.0);
-  room.Hang(Wall::kSouth, 2.3, 1.1, 0.8);
-  room.Hang(Wall::kSouth, 3.5, 1.0, 1.1);
+  room.Hang(Wall::kSouth, 2.3, 1.15, 0.60);
+  room.Hang(Wall::kSouth, 3.5, 1.05, 0.83);
   room.Put(PropKind::kBooks, room.AgainstWall(PropKind::kCabinet, Wall::kSouth, 2.5));
-  room.Hang(Wall::kSouth, 4.7, 0.9, 0.9);
+  room.Hang(Wall::kSouth, 4.7, 0.95, 0.68);
   room.AgainstWall(PropKind::kCarton, Wall::kSouth, 4.2, 0.3);
   room.AgainstWall(PropKind::kBookcase, Wall::kSouth, 5.8);
 }
@@ -123,7 +123,7 @@ Office AddOffice(SceneBuilder& scene, const PropLibrary& props, const OfficeOpti
   AddShells(scene, {&office.room, 1});
   RoomDecorator room(props, scene, office.room, options.seed);
   FurnishWalls(room);
-  room.Rug(Standing(kOfficeMiddleXM, 2.9, 0.0, 0.03), {3.6, 1.7}, SurfaceKind::kRug,
+  room.Rug(Standing(kOfficeMiddleXM, 2.9, 0.0, 0.03), {3.6, 1.7}, SurfaceKind::kCarpet,
            static_cast<int>(room.rng().Index(1000)));
   PropPlacer put(scene, props, options.seed);
   FurnishDesks(put);

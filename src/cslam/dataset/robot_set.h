@@ -35,6 +35,9 @@ class RobotSet {
 
   int AnyVariant() { return static_cast<int>(rng_.Index(1000)); }
 
+  // A chair that detectors know even with something before its back, in one of its usual colours.
+  int KnownChair() { return kNumChairs * static_cast<int>(rng_.Index(kNumColors)); }
+
   // There from the start on.
   SetPiece Place(PropKind kind, int variant, const std::string& name, const Se3& T_world_prop);
   // Its top or seat, and what stands there.
@@ -52,6 +55,9 @@ class RobotSet {
   Story Finish(const RobotRide& ride);
 
  private:
+  static constexpr int kNumChairs = 4;  // models in the packages, the best known one first
+  static constexpr int kNumColors = 3;
+
   const PropLibrary& props_;
   SceneBuilder scene_;
   RoomShell room_;

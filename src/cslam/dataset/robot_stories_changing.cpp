@@ -76,7 +76,7 @@ RobotRide ShortRide(std::uint64_t seed) {
 Story MakeChangingStory(const Stage& stage, const StoryOptions& options) {
   const RobotRide ride = options.is_short ? ShortRide(options.seed) : LongRide(options.seed);
   RobotSet set(stage, options, {.palette = 2});
-  const int chairs = set.AnyVariant();
+  const int chairs = set.KnownChair();
   const int umbrellas = set.AnyVariant();
   const SetPiece chair = set.Place(PropKind::kChair, chairs, "chair", set.Spot(kChairM));
   const SetPiece other = set.Place(PropKind::kChair, chairs, "other_chair", set.Spot(kOtherChairM));

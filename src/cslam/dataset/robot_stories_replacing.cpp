@@ -82,11 +82,11 @@ Story MakeReplacingStory(const Stage& stage, const StoryOptions& options) {
   const RobotRide ride = options.is_short ? ShortRide(options.seed) : LongRide(options.seed);
   RobotSet set(stage, options, {.palette = 1});
   const SetPiece book_chair =
-      set.Place(PropKind::kChair, set.AnyVariant(), "chair", set.Spot(kBookChairM));
+      set.Place(PropKind::kChair, set.KnownChair(), "chair", set.Spot(kBookChairM));
   const SetPiece books = set.PlaceOn(book_chair, PropKind::kBooks, "books");
   const Se3 T_world_spot = set.Spot(kBearChairM);
   const SetPiece bear_chair =
-      set.Place(PropKind::kChair, set.AnyVariant(), "other_chair", T_world_spot);
+      set.Place(PropKind::kChair, set.KnownChair(), "other_chair", T_world_spot);
   const SetPiece bear = set.PlaceOn(bear_chair, PropKind::kTeddyBear, "teddy_bear");
   const SetPiece suitcase =
       set.Place(PropKind::kSuitcase, set.AnyVariant(), "suitcase", set.Spot(kSuitcaseM));

@@ -106,7 +106,7 @@ Story MakeShiftStory(const Stage& stage, const StoryOptions& options) {
   RobotSet set(stage, options, {.palette = 0});
   SetPiece umbrella =
       set.Place(PropKind::kUmbrella, set.AnyVariant(), "umbrella", set.Spot(kUmbrellaM, -110.0));
-  SetPiece chair = set.Place(PropKind::kChair, set.AnyVariant(), "chair", set.Spot(kChairM));
+  SetPiece chair = set.Place(PropKind::kChair, set.KnownChair(), "chair", set.Spot(kChairM));
   SetPiece bear = set.PlaceOn(chair, PropKind::kTeddyBear, "teddy_bear");
   SetPiece suitcase =
       set.Place(PropKind::kSuitcase, set.AnyVariant(), "suitcase", set.Spot(kSuitcaseM));

@@ -60,7 +60,7 @@ RobotRide ShortRide(std::uint64_t seed) {
 
 Story MakeStaticStory(const Stage& stage, const StoryOptions& options) {
   RobotSet set(stage, options, {});
-  const SetPiece chair = set.Place(PropKind::kChair, set.AnyVariant(), "chair", set.Spot(kChairM));
+  const SetPiece chair = set.Place(PropKind::kChair, set.KnownChair(), "chair", set.Spot(kChairM));
   set.PlaceOn(chair, PropKind::kTeddyBear, "teddy_bear");
   set.Place(PropKind::kUmbrella, set.AnyVariant(), "umbrella", set.Spot(kUmbrellaM, -105.0));
   set.Place(PropKind::kSuitcase, set.AnyVariant(), "suitcase", set.Spot(kSuitcaseM, 180.0));

@@ -112,7 +112,7 @@ TimedRide ShortRide(std::uint64_t seed) {
 Story MakeVanishingStory(const Stage& stage, const StoryOptions& options) {
   const auto [ride, times] = options.is_short ? ShortRide(options.seed) : LongRide(options.seed);
   RobotSet set(stage, options, {.palette = 1});
-  SetPiece chair = set.Place(PropKind::kChair, set.AnyVariant(), "chair", set.Spot(kChairM));
+  SetPiece chair = set.Place(PropKind::kChair, set.KnownChair(), "chair", set.Spot(kChairM));
   SetPiece bear = set.PlaceOn(chair, PropKind::kTeddyBear, "teddy_bear");
   SetPiece umbrella =
       set.Place(PropKind::kUmbrella, set.AnyVariant(), "umbrella", set.Spot(kUmbrellaM, -105.0));

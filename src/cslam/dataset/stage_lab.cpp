@@ -54,20 +54,20 @@ class LabWalls {
 
   void North() {
     room_.AgainstWall(PropKind::kBookcase, Wall::kNorth, At(Wall::kNorth, 0.10));
-    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.28), 0.8, 0.95);
+    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.25), 1.15, 0.65);
     Topped(PropKind::kCabinet, Wall::kNorth, 0.46, PropKind::kCarton);
-    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.60), 0.9, 0.8);
-    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.73), 0.7, 0.8);
+    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.59), 1.2, 0.6);
+    room_.Hang(Wall::kNorth, At(Wall::kNorth, 0.73), 1.1, 0.6);
     room_.AgainstWall(PropKind::kBookcase, Wall::kNorth, At(Wall::kNorth, 0.86));
     room_.AgainstWall(PropKind::kCarton, Wall::kNorth, At(Wall::kNorth, 0.96), 0.2);
   }
 
   void East() {
     Topped(PropKind::kCabinet, Wall::kEast, 0.16, PropKind::kCarton);
-    room_.Hang(Wall::kEast, At(Wall::kEast, 0.33), 0.6, 1.1);
+    room_.Hang(Wall::kEast, At(Wall::kEast, 0.33), 0.8, 0.75);
     room_.AgainstWall(PropKind::kBookcase, Wall::kEast, At(Wall::kEast, 0.52));
     Topped(PropKind::kCarton, Wall::kEast, 0.66, PropKind::kCarton);
-    room_.Hang(Wall::kEast, At(Wall::kEast, 0.80), 0.7, 0.9);
+    room_.Hang(Wall::kEast, At(Wall::kEast, 0.80), 0.9, 0.65);
     room_.AgainstWall(PropKind::kCarton, Wall::kEast, At(Wall::kEast, 0.86), -0.3);
   }
 
@@ -75,18 +75,18 @@ class LabWalls {
     room_.Door(Wall::kSouth, At(Wall::kSouth, 0.10));
     Topped(PropKind::kDesk, Wall::kSouth, 0.32, PropKind::kBackpack);
     room_.AgainstWall(PropKind::kCarton, Wall::kSouth, At(Wall::kSouth, 0.32), 0.2);
-    room_.Hang(Wall::kSouth, At(Wall::kSouth, 0.32), 1.1, 1.0);
+    room_.Hang(Wall::kSouth, At(Wall::kSouth, 0.32), 1.2, 0.7);
     room_.AgainstWall(PropKind::kBookcase, Wall::kSouth, At(Wall::kSouth, 0.54));
-    room_.Hang(Wall::kSouth, At(Wall::kSouth, 0.69), 0.6, 0.9);
+    room_.Hang(Wall::kSouth, At(Wall::kSouth, 0.69), 0.8, 0.65);
     Topped(PropKind::kCabinet, Wall::kSouth, 0.83, PropKind::kCarton);
     room_.AgainstWall(PropKind::kCarton, Wall::kSouth, At(Wall::kSouth, 0.95), 0.4);
   }
 
   void West() {
     room_.AgainstWall(PropKind::kBookcase, Wall::kWest, At(Wall::kWest, 0.16));
-    room_.Hang(Wall::kWest, At(Wall::kWest, 0.34), 0.5, 1.0);
+    room_.Hang(Wall::kWest, At(Wall::kWest, 0.34), 0.7, 0.75);
     Topped(PropKind::kCabinet, Wall::kWest, 0.53, PropKind::kCarton);
-    room_.Hang(Wall::kWest, At(Wall::kWest, 0.68), 0.65, 0.8);
+    room_.Hang(Wall::kWest, At(Wall::kWest, 0.68), 0.8, 0.6);
     Topped(PropKind::kCarton, Wall::kWest, 0.82, PropKind::kCarton);
   }
 
