@@ -11,7 +11,7 @@ import cli_support
 import tiny_dataset
 from cli_support import CliTestCase, binary, run
 
-RUN_FILES = {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "frames.csv", "map.ply",
+RUN_FILES = {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "frames.csv", "loops.json", "map.ply",
              "config.yaml", "run.json", "trajectory.svg"}
 REPEATABLE_FILES = RUN_FILES - {"frames.csv", "run.json"}  # these two hold times
 

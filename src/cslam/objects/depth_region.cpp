@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace cslam {
@@ -121,12 +122,70 @@ Eigen::Vector3d DepthView::PointAt(int u, int v, double depth_m) const {
           depth_m};
 }
 
-DepthView MakeDepthView(const cv::Mat& depth_m, const Camera& camera) {
+DepthViewMaker::DepthViewMaker(const Camera& camera)
+    : camera_(camera),
+      step_(DepthThumbnailStep(camera.width)),
+      sources_(camera.height / step_, camera.width / step_, CV_32SC2) {
+  for (int v = 0; v < sources_.rows; ++v) {
+    for (int u = 0; u < sources_.cols; ++u) {
+      const Eigen::Vector2d middle(u * step_ + step_ / 2, v * step_ + step_ / 2);
+      const Eigen::Vector2d raw = Distort(camera, middle);
+      const int source_u = static_cast<int>(std::lround(raw.x()));
+      const int source_v = static_cast<int>(std::lround(raw.y()));
+      const bool is_inside =
+          source_u >= 0 && source_v >= 0 && source_u < camera.width && source_v < camera.height;
+      sources_.at<cv::Vec2i>(v, u) = is_inside ? cv::Vec2i(source_u, source_v) : cv::Vec2i(-1, -1);
+    }
+  }
+}
+
+DepthView DepthViewMaker::Make(const cv::Mat& depth_m) const {
   DepthView view;
-  view.depth_mm = MakeDepthThumbnail(depth_m);
-  view.step = depth_m.empty() ? 1 : DepthThumbnailStep(depth_m.cols);
-  view.camera = camera;
+  view.step = step_;
+  view.camera = camera_;
+  if (depth_m.empty()) return view;
+  constexpr float kMaxMm = 65535.0F;
+  view.depth_mm = cv::Mat::zeros(sources_.size(), CV_16UC1);
+  for (int v = 0; v < sources_.rows; ++v) {
+    auto* row = view.depth_mm.ptr<std::uint16_t>(v);
+    for (int u = 0; u < sources_.cols; ++u) {
+      const cv::Vec2i& source = sources_.at<cv::Vec2i>(v, u);
+      if (source[0] < 0) continue;
+      const float mm = 1000.0F * depth_m.at<float>(source[1], source[0]);
+      if (mm > 0.0F && mm < kMaxMm) row[u] = static_cast<std::uint16_t>(std::lround(mm));
+    }
+  }
   return view;
+}
+
+namespace {
+
+// The box around the images of a box's corners and edge centres.
+template <typename Transform>
+Box AroundImage(const Box& box, const Transform& transform) {
+  if (box.empty()) return box;
+  const double inf = std::numeric_limits<double>::infinity();
+  Box around{inf, inf, -inf, -inf};
+  for (const double x : {box.x_min, 0.5 * (box.x_min + box.x_max), box.x_max}) {
+    for (const double y : {box.y_min, 0.5 * (box.y_min + box.y_max), box.y_max}) {
+      const Eigen::Vector2d p = transform(Eigen::Vector2d(x, y));
+      around = {std::min(around.x_min, p.x()), std::min(around.y_min, p.y()),
+                std::max(around.x_max, p.x()), std::max(around.y_max, p.y())};
+    }
+  }
+  return around;
+}
+
+}  // namespace
+
+Box DepthViewMaker::Undistorted(const Box& raw) const {
+  if (!camera_.HasDistortion()) return raw;
+  return AroundImage(raw, [&](const Eigen::Vector2d& p) { return Undistort(camera_, p); });
+}
+
+Box DepthViewMaker::Distorted(const Box& undistorted) const {
+  if (!camera_.HasDistortion()) return undistorted;
+  return AroundImage(undistorted, [&](const Eigen::Vector2d& p) { return Distort(camera_, p); });
 }
 
 void Describe(OptionList& list, RegionOptions& o) {

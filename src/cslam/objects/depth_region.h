@@ -13,11 +13,10 @@ namespace cslam {
 
 class OptionList;
 
-// A depth thumbnail (vision/depth_thumbnail.h) with what is needed to place its pixels in space.
-// Lens distortion is left out of account: its share in a few frames' motion is far below a
-// thumbnail pixel.
+// A reduced depth image of a camera without distortion: pixel (u, v) looks along the ray of the
+// undistorted full-size pixel in its middle. All regions and their boxes are in such pixels.
 struct DepthView {
-  cv::Mat depth_mm;  // CV_16UC1; 0 = no reading
+  cv::Mat depth_mm;  // CV_16UC1; 0 = no reading or beyond 65 m
   int step = 4;      // full-size pixels per thumbnail pixel
   Camera camera;     // of the full-size image
 
@@ -28,7 +27,24 @@ struct DepthView {
   }
   Eigen::Vector3d PointAt(int u, int v, double depth_m) const;  // camera frame, m
 };
-DepthView MakeDepthView(const cv::Mat& depth_m, const Camera& camera);
+
+// Makes depth views of one camera's images.
+class DepthViewMaker {
+ public:
+  explicit DepthViewMaker(const Camera& camera);
+
+  // depth_m: H x W, CV_32FC1, as recorded (empty: the view is, too).
+  DepthView Make(const cv::Mat& depth_m) const;
+
+  // Boxes around what a box covers, from recorded to undistorted pixels and back.
+  Box Undistorted(const Box& raw) const;
+  Box Distorted(const Box& undistorted) const;
+
+ private:
+  Camera camera_;
+  int step_;
+  cv::Mat sources_;  // CV_32SC2: recorded pixel (u, v) of each thumbnail pixel; -1: outside
+};
 
 // The part of a depth view that one thing covers.
 struct DepthRegion {

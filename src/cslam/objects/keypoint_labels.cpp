@@ -70,8 +70,8 @@ bool IsInBand(const Keypoint& keypoint, const Band& band, const LabelOptions& op
 // keypoint decides whether the keypoint's own reading lies on the surface or behind it.
 bool IsOnSurface(const Keypoint& keypoint, const DepthRegion& region, const DepthView& view,
                  const LabelOptions& options) {
-  const int u = static_cast<int>(keypoint.raw_px.x()) / view.step;
-  const int v = static_cast<int>(keypoint.raw_px.y()) / view.step;
+  const int u = static_cast<int>(keypoint.uv_px.x()) / view.step;
+  const int v = static_cast<int>(keypoint.uv_px.y()) / view.step;
   const int reach = std::max(1, (options.border_px + view.step - 1) / view.step);
   bool is_near = false;
   float surface_m = 0.0F;
@@ -188,8 +188,8 @@ std::vector<KeypointSemantics> LabelKeypoints(std::span<const Keypoint> keypoint
     const Keypoint& keypoint = keypoints[k];
     for (const std::size_t i : order) {
       const LabelledThing& thing = things[i];
-      const bool is_in_box = thing.box.Contains(static_cast<double>(keypoint.raw_px.x()),
-                                                static_cast<double>(keypoint.raw_px.y()));
+      const bool is_in_box = thing.box.Contains(static_cast<double>(keypoint.uv_px.x()),
+                                                static_cast<double>(keypoint.uv_px.y()));
       bool is_own = is_in_box;
       if (rule == LabelRule::kSurfaces && !thing.region.empty()) {
         is_own = IsOnSurface(keypoint, thing.region, view, options);

@@ -30,14 +30,14 @@ struct LabelOptions {
   bool drop_occluded = true;          // bands: keypoints under an unlabelled occluder are out
   bool drop_without_depth = true;     // keypoints without depth at or in a thing are its own
   double surface_tolerance_m = 0.12;  // surfaces: a keypoint so much behind it is background
-  int border_px = 6;  // surfaces: how far beyond its pixels a thing's keypoints may lie
+  int border_px = 2;  // surfaces: how far beyond its pixels a thing's keypoints may lie
 };
 void Describe(OptionList& list, LabelOptions& options);
 LabelRule RuleOf(const LabelOptions& options);  // throws Error for an unknown name
 
 // A thing in the picture, as labels need it.
 struct LabelledThing {
-  Box box;             // full-size px, in the image as recorded
+  Box box;             // full-size px, undistorted
   DepthRegion region;  // its surface; empty: not known, its whole box counts
   int class_id = -1;   // COCO
   TrackId track;

@@ -14,8 +14,18 @@ namespace {
 
 enum class Seen { kNothing, kSame, kThrough };
 
-// Compares the pixels of now with an earlier view. An opened gap of one pixel on each side keeps
-// edges out: of the nine readings around, the nearest counts as how far that view could see.
+// Thumbnail pixels by which edges may be misplaced: the faster the camera turns, the more.
+int EdgeWidth(const DepthView& now, const EarlierView& earlier,
+              const MotionRegionOptions& options) {
+  constexpr int kMaxWidth = 5;
+  if (earlier.age_s <= 0.0) return 1;
+  const double turned_rad = Log(earlier.T_earlier_now).head<3>().norm();
+  const double shift_px = turned_rad / earlier.age_s * options.timing_s * now.camera.fx;
+  return std::min(kMaxWidth, 1 + static_cast<int>(shift_px / now.step));
+}
+
+// Compares the pixels of now with an earlier view. A gap on each side keeps edges out: of the
+// readings around, the nearest counts as how far that view could see.
 class Comparison {
  public:
   Comparison(const DepthView& now, const EarlierView& earlier, const MotionRegionOptions& options)
@@ -24,8 +34,10 @@ class Comparison {
         R_(earlier.T_earlier_now.R()),
         t_(earlier.T_earlier_now.translation),
         options_(options) {
-    cv::erode(before_.depth_mm, nearest_, cv::Mat::ones(3, 3, CV_8UC1));
-    cv::dilate(before_.depth_mm, farthest_, cv::Mat::ones(3, 3, CV_8UC1));
+    const int width = 2 * EdgeWidth(now, earlier, options) + 1;
+    const cv::Mat around = cv::Mat::ones(width, width, CV_8UC1);
+    cv::erode(before_.depth_mm, nearest_, around);
+    cv::dilate(before_.depth_mm, farthest_, around);
   }
 
   Seen At(int u, int v) const {
@@ -75,6 +87,11 @@ void Describe(OptionList& list, MotionRegionOptions& o) {
   list.Add("reach", o.reach_m, {0.05, 3.0}, "m", "Extent in depth of a thing that moves.");
   list.Add("growth", o.growth_px, {0.0, 640.0}, "px",
            "How far a region may grow from what was seen to move.");
+  list.Add("timing", o.timing_s, {0.0, 0.2}, "s",
+           "How far apart colour, depth and their rows may be taken: edges count the less, the "
+           "faster the camera turns.");
+  list.Add("max_turn_rate", o.max_turn_rate_dps, {0.0, 1000.0}, "deg/s",
+           "Frames taken while the camera turns faster are neither judged nor compared with.");
   list.Add("min_inliers", o.min_inliers, {0, 10'000}, "matches",
            "A pose with fewer inliers is too uncertain to judge motion by.");
 }
@@ -112,13 +129,14 @@ std::vector<DepthRegion> FindMovedRegions(const DepthView& now,
                                           const cv::Mat& known,
                                           const MotionRegionOptions& options) {
   if (now.empty() || earlier.empty()) return {};
-  cv::Mat moved = cv::Mat::zeros(now.depth_mm.size(), CV_8UC1);
+  cv::Mat moved(now.depth_mm.size(), CV_8UC1, cv::Scalar(255));
   for (const EarlierView& view : earlier) {
-    if (view.view->depth_mm.size() != now.depth_mm.size()) continue;
+    if (view.view->depth_mm.size() != now.depth_mm.size()) return {};
     const Comparison comparison(now, view, options);
     for (int v = 0; v < moved.rows; ++v) {
+      auto* row = moved.ptr<std::uint8_t>(v);
       for (int u = 0; u < moved.cols; ++u) {
-        if (comparison.At(u, v) == Seen::kThrough) moved.at<std::uint8_t>(v, u) = 255;
+        if (row[u] != 0 && comparison.At(u, v) != Seen::kThrough) row[u] = 0;
       }
     }
   }

@@ -21,7 +21,7 @@ TEST(FindMovedRegions, FindsABoxThatHasMovedBeforeAWall) {
   const Box now_box = DrawPanel(after, 0.1, 0.0, 2.0, 0.5, 0.5);
   const DepthView earlier = ViewOf(before);
   const DepthView now = ViewOf(after);
-  const EarlierView view{&earlier, Se3()};
+  const EarlierView view{&earlier, Se3(), 0.2};
   const auto regions = FindMovedRegions(now, {&view, 1}, {}, {});
   ASSERT_EQ(regions.size(), 1U);
   EXPECT_GT(Coverage(regions[0], now_box, now.step), 0.9);
@@ -35,7 +35,7 @@ TEST(FindMovedRegions, FindsNothingWhenOnlyTheCameraMoves) {
   DrawPanel(after, -0.2, 0.0, 2.0, 0.5, 0.5);
   const DepthView earlier = ViewOf(before);
   const DepthView now = ViewOf(after);
-  const EarlierView view{&earlier, Se3{Eigen::Quaterniond::Identity(), {0.2, 0.0, 0.0}}};
+  const EarlierView view{&earlier, Se3{Eigen::Quaterniond::Identity(), {0.2, 0.0, 0.0}}, 0.2};
   EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, {}, {}).empty());
 }
 
@@ -45,18 +45,18 @@ TEST(FindMovedRegions, DoesNotJudgeWhatTheEarlierViewCouldNotSee) {
   DrawPanel(after, -1.0, 0.0, 2.0, 0.4, 0.8);
   const DepthView earlier = ViewOf(Wall(4.0));
   const DepthView now = ViewOf(after);
-  const EarlierView view{&earlier, Se3{Eigen::Quaterniond::Identity(), {-0.8, 0.0, 0.0}}};
+  const EarlierView view{&earlier, Se3{Eigen::Quaterniond::Identity(), {-0.8, 0.0, 0.0}}, 0.2};
   EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, {}, {}).empty());
   // Nor where it had no reading.
   const DepthView blank = ViewOf(Wall(0.0));
-  const EarlierView blind{&blank, Se3()};
+  const EarlierView blind{&blank, Se3(), 0.2};
   EXPECT_TRUE(FindMovedRegions(now, {&blind, 1}, {}, {}).empty());
 }
 
 TEST(FindMovedRegions, TakesAMostlyChangedPictureForAWrongPose) {
   const DepthView earlier = ViewOf(Wall(4.0));
   const DepthView now = ViewOf(Wall(2.0));
-  const EarlierView view{&earlier, Se3()};
+  const EarlierView view{&earlier, Se3(), 0.2};
   EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, {}, {}).empty());
 }
 
@@ -65,7 +65,7 @@ TEST(FindMovedRegions, LeavesOutWhatIsKnownAlready) {
   DrawPanel(after, 0.1, 0.0, 2.0, 0.5, 0.5);
   const DepthView earlier = ViewOf(Wall(4.0));
   const DepthView now = ViewOf(after);
-  const EarlierView view{&earlier, Se3()};
+  const EarlierView view{&earlier, Se3(), 0.2};
   const cv::Mat known(now.depth_mm.size(), CV_8UC1, cv::Scalar(255));
   EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, known, {}).empty());
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace cslam {
 namespace {
@@ -74,7 +75,7 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
 }
 
 ObjectTracker::ObjectTracker(const Camera& camera, const ObjectTrackerOptions& options)
-    : camera_(camera), options_(options) {
+    : camera_(camera), views_(camera), options_(options) {
   RuleOf(options.labels);  // throws for an unknown one
 }
 
@@ -96,21 +97,25 @@ double ObjectTracker::AreaM2(const DepthRegion& region) const {
   return region.num_pixels * metres_per_px * metres_per_px;
 }
 
-void ObjectTracker::Observe(FrameId frame, Stamp stamp, DepthView view,
+void ObjectTracker::Observe(FrameId frame, Stamp stamp, const cv::Mat& depth_m,
                             const Se3& T_world_predicted, const Se3& T_world_last,
                             const Detections* detections) {
   MoveWorld(T_world_last);
-  now_ = Frame{frame, stamp, std::move(view), T_world_predicted, false, {}};
+  now_ = Frame{frame, stamp, views_.Make(depth_m), T_world_predicted, false, 0.0, {}};
   for (Object& object : objects_)
     object.is_detected_now = false;
   for (Object& object : objects_) {
     if (history_.empty()) break;
+    if (object.region.empty() || now_.view.empty()) continue;
     object.region = Carried(history_.back(), object.region, object);
-    if (!object.region.empty()) object.box = object.region.box;
+    object.box = object.region.box;  // empty where the depth says that it is gone
   }
   if (detections != nullptr && (!newest_taken_ || *newest_taken_ < detections->frame)) {
     newest_taken_ = detections->frame;
-    TakeIn(*detections);
+    Detections undistorted = *detections;
+    for (Detection& detection : undistorted.objects)
+      detection.box = views_.Undistorted(detection.box);
+    TakeIn(undistorted);
   }
   Forget();
   for (const Object& object : objects_)
@@ -178,7 +183,8 @@ DepthRegion ObjectTracker::Segment(const DepthView& view, const Detection& detec
                            options_.region);
 }
 
-// Nearer things first, so that those behind them leave out what is covered.
+// People first, then nearer things, so that those behind leave out what is covered: the box of a
+// chair behind somebody is full of that person.
 std::vector<DepthRegion> ObjectTracker::SegmentAll(const Frame& frame,
                                                    const Detections& detections) const {
   const std::size_t count = detections.objects.size();
@@ -189,6 +195,9 @@ std::vector<DepthRegion> ObjectTracker::SegmentAll(const Frame& frame,
     regions[i] = Segment(frame.view, detections.objects[i], {});
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const bool a_is_person = detections.objects[a].class_id == kPersonClass;
+    const bool b_is_person = detections.objects[b].class_id == kPersonClass;
+    if (a_is_person != b_is_person) return a_is_person;
     const float za = regions[a].empty() ? std::numeric_limits<float>::max() : regions[a].median_m;
     const float zb = regions[b].empty() ? std::numeric_limits<float>::max() : regions[b].median_m;
     return za < zb;
@@ -277,24 +286,39 @@ void ObjectTracker::Renew(std::optional<TrackId> id, const Detection& detection,
   object.box = object.region.empty() ? detection.box : object.region.box;
 }
 
-// The newest settled frame that is at least so old.
+// The newest settled frame that is at least so old and was taken calmly.
 const ObjectTracker::Frame* ObjectTracker::SettledBefore(double age_s) const {
   const auto frame = std::find_if(history_.rbegin(), history_.rend(), [&](const Frame& f) {
-    return f.is_settled && SecondsBetween(now_.stamp, f.stamp) >= age_s;
+    return f.is_settled && f.turn_rate_dps <= options_.unknown.max_turn_rate_dps &&
+           SecondsBetween(now_.stamp, f.stamp) >= age_s;
   });
   return frame == history_.rend() ? nullptr : &*frame;
 }
 
+// How fast the camera has turned since the last settled frame.
+double ObjectTracker::TurnRateDps(const Se3& T_world_camera) const {
+  const Frame* last = history_.empty() || !history_.back().is_settled ? nullptr : &history_.back();
+  if (last == nullptr) return 0.0;
+  const double dt_s = SecondsBetween(now_.stamp, last->stamp);
+  if (dt_s <= 0.0) return 0.0;
+  const Vector6 moved = Log(last->T_world_camera.Inverse() * T_world_camera);
+  return moved.head<3>().norm() / dt_s * 180.0 / std::numbers::pi;
+}
+
 int ObjectTracker::FindUnknown(const Se3& T_world_camera, int num_inliers) {
   if (!options_.unknown.enabled || num_inliers < options_.unknown.min_inliers) return 0;
+  if (TurnRateDps(T_world_camera) > options_.unknown.max_turn_rate_dps) return 0;
   constexpr double kSlackS = 1e-3;  // stamps are not exact multiples of a frame's time
   std::vector<EarlierView> earlier;
   for (const double age_s :
        {options_.unknown.reference_age_s, 0.5 * options_.unknown.reference_age_s}) {
     const Frame* frame = SettledBefore(age_s - kSlackS);
     if (frame == nullptr || (!earlier.empty() && earlier.back().view == &frame->view)) continue;
-    earlier.push_back({&frame->view, frame->T_world_camera.Inverse() * T_world_camera});
+    earlier.push_back({&frame->view, frame->T_world_camera.Inverse() * T_world_camera,
+                       SecondsBetween(now_.stamp, frame->stamp)});
   }
+  constexpr std::size_t kNumViews = 2;  // one alone may have a wrong pose
+  if (earlier.size() < kNumViews) return 0;
   const auto regions = FindMovedRegions(now_.view, earlier, DynamicMask(), options_.unknown);
   for (const DepthRegion& region : regions)
     AddUnknown(region, T_world_camera);
@@ -379,6 +403,7 @@ cv::Mat ObjectTracker::DynamicMask() const {
 void ObjectTracker::Settle(const Se3& T_world_camera,
                            const Eigen::Matrix3d& position_covariance_m2) {
   now_.T_world_camera = T_world_camera;
+  now_.turn_rate_dps = TurnRateDps(T_world_camera);
   for (Object& object : objects_) {
     if (object.region.empty()) continue;
     const CentreMeasurement measurement{
@@ -403,8 +428,11 @@ void ObjectTracker::Settle(const Se3& T_world_camera,
 SurfaceMotion ObjectTracker::SurfaceMotionOf(const Object& object) const {
   constexpr double kSlackS = 1e-3;
   const Frame* before = SettledBefore(0.5 * options_.unknown.reference_age_s - kSlackS);
-  if (before == nullptr) return SurfaceMotion::kNotKnown;
-  const EarlierView earlier{&before->view, before->T_world_camera.Inverse() * now_.T_world_camera};
+  if (before == nullptr || now_.turn_rate_dps > options_.unknown.max_turn_rate_dps) {
+    return SurfaceMotion::kNotKnown;
+  }
+  const EarlierView earlier{&before->view, before->T_world_camera.Inverse() * now_.T_world_camera,
+                            SecondsBetween(now_.stamp, before->stamp)};
   return JudgeSurface(now_.view, object.region, earlier, options_.unknown);
 }
 
@@ -425,7 +453,7 @@ std::vector<TrackedObject> ObjectTracker::objects() const {
     out.track = object.id;
     out.class_id = object.class_id;
     out.score = object.score;
-    out.box = object.box;
+    out.box = views_.Distorted(object.box);
     out.label = LabelOf(object);
     out.is_detected = object.is_detected_now;
     if (object.filter) {

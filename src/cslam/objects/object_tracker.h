@@ -40,7 +40,7 @@ struct TrackedObject {
   TrackId track;
   int class_id = -1;  // COCO; -1: moves, but no detector named it
   double score = 0.0;
-  Box box;  // in the newest frame, full-size px
+  Box box;  // in the newest frame as recorded, full-size px
   ObjectMotion motion = ObjectMotion::kUnknown;
   KeypointLabel label = KeypointLabel::kDynamic;           // of its keypoints
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();       // m
@@ -57,13 +57,13 @@ class ObjectTracker {
 
   // Before the frame's pose is known. T_world_predicted: where the camera probably is;
   // T_world_last: where it was in the last settled frame, in the world as it is now.
-  void Observe(FrameId frame, Stamp stamp, DepthView view, const Se3& T_world_predicted,
+  void Observe(FrameId frame, Stamp stamp, const cv::Mat& depth_m, const Se3& T_world_predicted,
                const Se3& T_world_last, const Detections* detections);
 
   // Labels for keypoints of the frame observed.
   std::vector<KeypointSemantics> Label(std::span<const Keypoint> keypoints) const;
 
-  // Thumbnail mask of what keypoints must not come from; empty if nothing.
+  // Thumbnail mask (undistorted) of what keypoints must not come from; empty if nothing.
   cv::Mat DynamicMask() const;
 
   // Looks for things that move though no detector named them, given a good first guess of the
@@ -109,6 +109,7 @@ class ObjectTracker {
     DepthView view;
     Se3 T_world_camera;  // predicted until settled
     bool is_settled = false;
+    double turn_rate_dps = 0.0;  // since the frame before
     std::vector<PastObject> objects;
   };
 
@@ -126,10 +127,12 @@ class ObjectTracker {
   void Forget();
   void AddUnknown(const DepthRegion& region, const Se3& T_world_camera);
   const Frame* SettledBefore(double age_s) const;
+  double TurnRateDps(const Se3& T_world_camera) const;
   KeypointLabel LabelOf(const Object& object) const;
   double AreaM2(const DepthRegion& region) const;
 
   const Camera camera_;
+  const DepthViewMaker views_;
   const ObjectTrackerOptions options_;
   std::vector<Object> objects_;  // by id
   std::deque<Frame> history_;    // settled frames, oldest first

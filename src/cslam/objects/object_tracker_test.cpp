@@ -11,7 +11,6 @@ namespace {
 
 using test::DrawPanel;
 using test::SceneCamera;
-using test::ViewOf;
 using test::Wall;
 
 constexpr int kChair = 56;
@@ -42,8 +41,8 @@ class ObjectTrackerTest : public testing::Test {
 
   void Play(const cv::Mat& depth_m, const Detections* detections) {
     if (!tracker_) tracker_ = std::make_unique<ObjectTracker>(SceneCamera(), options_);
-    tracker_->Observe(FrameId(static_cast<std::uint32_t>(frame_)), StampOf(frame_), ViewOf(depth_m),
-                      Se3(), Se3(), detections);
+    tracker_->Observe(FrameId(static_cast<std::uint32_t>(frame_)), StampOf(frame_), depth_m, Se3(),
+                      Se3(), detections);
     tracker_->Settle(Se3(), Eigen::Matrix3d::Zero());
     ++frame_;
   }
@@ -55,7 +54,7 @@ class ObjectTrackerTest : public testing::Test {
 
   KeypointLabel LabelAt(double u, double v, double depth_m) const {
     Keypoint keypoint;
-    keypoint.raw_px = {static_cast<float>(u), static_cast<float>(v)};
+    keypoint.raw_px = keypoint.uv_px = {static_cast<float>(u), static_cast<float>(v)};
     keypoint.depth_m = static_cast<float>(depth_m);
     return tracker_->Label({&keypoint, 1}).front().label;
   }
@@ -161,8 +160,8 @@ TEST_F(ObjectTrackerTest, FindsAMovingThingThatNobodyNamed) {
     cv::Mat depth = Wall(4.0);
     DrawPanel(depth, -0.5 + 0.03 * i, 0.0, 2.0, 0.5, 0.5);
     if (!tracker_) tracker_ = std::make_unique<ObjectTracker>(SceneCamera(), options_);
-    tracker_->Observe(FrameId(static_cast<std::uint32_t>(i)), StampOf(i), ViewOf(depth), Se3(),
-                      Se3(), nullptr);
+    tracker_->Observe(FrameId(static_cast<std::uint32_t>(i)), StampOf(i), depth, Se3(), Se3(),
+                      nullptr);
     tracker_->FindUnknown(Se3(), 300);
     tracker_->Settle(Se3(), Eigen::Matrix3d::Zero());
   }

@@ -48,7 +48,7 @@ inline Box DrawPanel(cv::Mat& depth_m, double x, double y, double depth, double 
 }
 
 inline DepthView ViewOf(const cv::Mat& depth_m) {
-  return MakeDepthView(depth_m, SceneCamera());
+  return DepthViewMaker(SceneCamera()).Make(depth_m);
 }
 
 // Share of the box's thumbnail pixels that the region covers.

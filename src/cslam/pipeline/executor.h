@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/loop/place_stage.h"
+#include "cslam/mapping/full_ba.h"
 #include "cslam/mapping/mapper.h"
 #include "cslam/pipeline/slam.h"
 #include "cslam/tracking/tracker.h"
@@ -21,6 +23,32 @@ class Slam::Executor {
 
 using Sinks = std::vector<std::shared_ptr<OutputSink>>;
 
+// Adjusts a whole map of a snapshot, as after a loop.
+class FullAdjuster {
+ public:
+  FullAdjuster(const Camera& camera, const SlamOptions& options)
+      : camera_(camera),
+        depth_(options.tracking.depth),
+        model_(LevelScales(options.tracking.orb), options.tracking.depth.disparity_sigma_px),
+        options_(options.full_ba) {}
+
+  std::optional<PoseRefinement> Adjust(const MapSnapshot& snapshot, MapId map,
+                                       const std::function<bool()>& should_stop = {}) const {
+    return AdjustFully(snapshot.map, map, camera_, depth_, model_, options_, should_stop);
+  }
+
+ private:
+  Camera camera_;
+  DepthOptions depth_;
+  MeasurementModel model_;
+  FullBaOptions options_;
+};
+
+// The map that a correction leaves its keyframes in.
+inline MapId MapAfter(const MapCorrection& correction) {
+  return correction.merge_into.valid() ? correction.merge_into : correction.map;
+}
+
 class Slam::InlineExecutor : public Slam::Executor {
  public:
   InlineExecutor(const Camera& camera, const SlamOptions& options, Sinks sinks,
@@ -32,27 +60,34 @@ class Slam::InlineExecutor : public Slam::Executor {
   std::shared_ptr<const MapSnapshot> map() const override { return snapshot_; }
 
  private:
+  void RecognisePlaces(KeyframeId keyframe);
   void Publish(const MapUpdate& update);
 
   std::unique_ptr<Detector> detector_;
   InlineDetection detection_;
   Tracker tracker_;
   Mapper mapper_;
+  PlaceStage places_;
+  FullAdjuster adjuster_;
   Sinks sinks_;
   std::shared_ptr<const MapSnapshot> snapshot_;
+  std::optional<PlaceHint> hint_;  // about the last lost frame
   std::vector<FrameRecord> records_;
 };
 
 // All threads of SLAM:
 //
-//   caller --frames--> tracker --proposals--> mapper
-//                      ^  |  ^                  |
-//    detector--Latest<>+  |  +---- Latest<> ----+
-//       ^---some frames---+-------events--------+--> sinks
+//   caller --frames--> tracker --proposals--> mapper --keyframes--> places
+//                      ^  |  ^                ^ |                     | |
+//    detector--Latest<>+  |  +---- Latest<> --|-+                     | |
+//       ^---some frames---+-------events------|-+---------------------|-+--> sinks
+//                         |                   +-----corrections-------+
+//                         +<--Latest<>-- lost frames and their places --+
 //
 // With a detector that looks at every frame, it stands between caller and tracker instead.
 //
-// Blocking edges go forward only; snapshots come back through a slot that never blocks.
+// Blocking edges go forward only; snapshots and hints come back through slots that never block,
+// corrections through a queue that never blocks.
 class Slam::ThreadedExecutor : public Slam::Executor {
  public:
   ThreadedExecutor(const Camera& camera, const SlamOptions& options, Sinks sinks,

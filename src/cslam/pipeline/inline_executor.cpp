@@ -10,19 +10,42 @@ Slam::InlineExecutor::InlineExecutor(const Camera& camera, const SlamOptions& op
       detection_(detector_.get(), options.detection),
       tracker_(camera, options.tracking),
       mapper_(camera, options.tracking.orb, options.tracking.depth, options.mapping),
+      places_(camera, options.tracking.orb, options.tracking.depth, options.places),
+      adjuster_(camera, options),
       sinks_(std::move(sinks)) {}
 
 TrackingResult Slam::InlineExecutor::Track(std::shared_ptr<const RgbdFrame> frame) {
-  TrackerOutput output = tracker_.Process(*frame, snapshot_, detection_.Next(*frame));
+  TrackerOutput output =
+      tracker_.Process(*frame, snapshot_, detection_.Next(*frame), hint_ ? &*hint_ : nullptr);
+  hint_.reset();
+  if (output.lost) hint_ = places_.Find(*output.lost, *snapshot_);
   records_.push_back(MakeRecord(output.result));
   for (const auto& sink : sinks_)
     sink->OnFrame(output.result);
   if (output.proposal) {
     const MapUpdate inserted = mapper_.Insert(*output.proposal);
     Publish(inserted);
-    if (inserted.step == MapUpdate::Step::kInserted) Publish(mapper_.Refine());
+    if (inserted.step == MapUpdate::Step::kInserted) {
+      Publish(mapper_.Refine());
+      RecognisePlaces(inserted.keyframe);
+    }
   }
   return std::move(output.result);
+}
+
+void Slam::InlineExecutor::RecognisePlaces(KeyframeId keyframe) {
+  const LoopOutcome outcome = places_.OnKeyframe(keyframe, *snapshot_);
+  for (const LoopRecord& record : outcome.records) {
+    for (const auto& sink : sinks_)
+      sink->OnLoop(record);
+  }
+  if (!outcome.correction) return;
+  const MapUpdate corrected = mapper_.Apply(*outcome.correction);
+  Publish(corrected);
+  if (!corrected.correction->is_applied()) return;
+  if (const auto refinement = adjuster_.Adjust(*snapshot_, MapAfter(*outcome.correction))) {
+    Publish(mapper_.Apply(*refinement));
+  }
 }
 
 void Slam::InlineExecutor::Publish(const MapUpdate& update) {
@@ -35,6 +58,8 @@ void Slam::InlineExecutor::Reset() {
   detection_.Reset();
   tracker_.Reset();
   mapper_.Reset();
+  places_.Reset();
+  hint_.reset();
   snapshot_.reset();
   records_.clear();
 }

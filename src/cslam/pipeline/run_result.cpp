@@ -13,6 +13,12 @@ bool IsTracked(const FrameRecord& frame) {
 
 }  // namespace
 
+MapId MapOf(const RunResult& result, const FrameRecord& frame) {
+  const MapView& map = result.snapshot->map;
+  const auto anchored = map.Resolve(frame.reference);
+  return anchored ? map.FindKeyframe(anchored->keyframe)->map : frame.map;
+}
+
 FrameRecord MakeRecord(const TrackingResult& result) {
   FrameRecord record;
   record.frame = result.frame;
@@ -25,10 +31,10 @@ FrameRecord MakeRecord(const TrackingResult& result) {
   return record;
 }
 
-MapId LargestMap(const std::vector<FrameRecord>& frames) {
+MapId LargestMap(const RunResult& result) {
   std::map<MapId, int> counts;
-  for (const FrameRecord& frame : frames) {
-    if (IsTracked(frame)) ++counts[frame.map];
+  for (const FrameRecord& frame : result.frames) {
+    if (IsTracked(frame)) ++counts[MapOf(result, frame)];
   }
   MapId largest;
   for (const auto& [map, count] : counts) {
@@ -39,9 +45,9 @@ MapId LargestMap(const std::vector<FrameRecord>& frames) {
 
 Trajectory FinalTrajectory(const RunResult& result) {
   Trajectory trajectory;
-  const MapId map = LargestMap(result.frames);
+  const MapId map = LargestMap(result);
   for (const FrameRecord& frame : result.frames) {
-    if (!IsTracked(frame) || frame.map != map) continue;
+    if (!IsTracked(frame) || MapOf(result, frame) != map) continue;
     const auto T_world_reference = result.snapshot->map.T_world_keyframe(frame.reference);
     if (!T_world_reference) continue;
     trajectory.push_back({frame.stamp, *T_world_reference * frame.T_reference_camera});
@@ -51,7 +57,7 @@ Trajectory FinalTrajectory(const RunResult& result) {
 
 Trajectory LiveTrajectory(const RunResult& result) {
   Trajectory trajectory;
-  const MapId map = LargestMap(result.frames);
+  const MapId map = LargestMap(result);
   for (const FrameRecord& frame : result.frames) {
     if (IsTracked(frame) && frame.map == map) {
       trajectory.push_back({frame.stamp, frame.T_world_camera});
@@ -62,7 +68,7 @@ Trajectory LiveTrajectory(const RunResult& result) {
 
 Trajectory KeyframeTrajectory(const RunResult& result) {
   Trajectory trajectory;
-  const MapId map = LargestMap(result.frames);
+  const MapId map = LargestMap(result);
   for (const KeyframeId id : result.snapshot->map.Keyframes()) {
     const Keyframe& keyframe = *result.snapshot->map.FindKeyframe(id);
     if (keyframe.map == map) trajectory.push_back({keyframe.data->stamp, keyframe.T_world_camera});

@@ -31,8 +31,11 @@ struct RunResult {
   std::uint64_t frames_dropped = 0;  // never processed: the tracker was busy (sensor rate)
 };
 
+// The map that a tracked frame's reference keyframe is in by now: maps merge.
+MapId MapOf(const RunResult& result, const FrameRecord& frame);
+
 // The map in which most frames were tracked; invalid if none was.
-MapId LargestMap(const std::vector<FrameRecord>& frames);
+MapId LargestMap(const RunResult& result);
 
 // Final poses of the frames tracked in that map, resolved through their reference keyframes.
 Trajectory FinalTrajectory(const RunResult& result);

@@ -76,11 +76,11 @@ TEST(KeyframeTrajectory, HoldsTheLivingKeyframesOfTheLargestMap) {
 
 TEST(LargestMap, CountsTrackedFramesOnlyAndPrefersTheFirstOfEquals) {
   RunResult result = MakeResult();
-  EXPECT_EQ(LargestMap(result.frames), MapId(0));
+  EXPECT_EQ(LargestMap(result), MapId(0));
   result.frames[0].state = result.frames[1].state = TrackingState::kLost;
-  EXPECT_EQ(LargestMap(result.frames), MapId(0));
+  EXPECT_EQ(LargestMap(result), MapId(0));
   result.frames[2].state = TrackingState::kLost;
-  EXPECT_EQ(LargestMap(result.frames), MapId(1));
+  EXPECT_EQ(LargestMap(result), MapId(1));
 }
 
 TEST(MakeRecord, KeepsWhatTheTrajectoriesNeed) {

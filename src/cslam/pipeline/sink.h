@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/messages/loop_messages.h"
 #include "cslam/messages/messages.h"
 #include "cslam/pipeline/run_result.h"
 
@@ -14,6 +15,7 @@ class OutputSink {
  public:
   virtual ~OutputSink() = default;
   virtual void OnFrame(const TrackingResult& /*result*/) {}
+  virtual void OnLoop(const LoopRecord& /*record*/) {}
   virtual void OnMap(const MapUpdate& /*update*/) {}
   virtual void OnFinish(const RunResult& /*result*/) {}
 };

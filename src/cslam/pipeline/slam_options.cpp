@@ -22,6 +22,8 @@ void Describe(OptionList& list, PipelineOptions& o) {
 void Describe(OptionList& list, SlamOptions& o) {
   list.Group("tracking", o.tracking);
   list.Group("mapping", o.mapping);
+  list.Group("places", o.places);
+  list.Group("full_ba", o.full_ba);
   list.Group("detection", o.detection);
   list.Group("detector", o.detector);
   list.Group("pipeline", o.pipeline);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/loop/place_stage.h"
+#include "cslam/mapping/full_ba.h"
 #include "cslam/mapping/mapper_options.h"
 #include "cslam/pipeline/detection_schedule.h"
 #include "cslam/semantics/detector_options.h"
@@ -23,6 +25,8 @@ void Describe(OptionList& list, PipelineOptions& options);
 struct SlamOptions {
   TrackerOptions tracking;
   MapperOptions mapping;
+  PlaceOptions places;
+  FullBaOptions full_ba;
   DetectionOptions detection;
   DetectorOptions detector;  // for whoever makes the detector that Slam is given
   PipelineOptions pipeline;

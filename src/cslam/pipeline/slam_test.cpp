@@ -161,7 +161,7 @@ TEST_P(SlamTest, FinishWithoutFramesGivesAnEmptyResult) {
   const auto slam = MakeSlam();
   EXPECT_TRUE(FinalTrajectory(slam->Finish()).empty());
   EXPECT_TRUE(KeyframeTrajectory(slam->Finish()).empty());
-  EXPECT_FALSE(LargestMap(slam->Finish().frames).valid());
+  EXPECT_FALSE(LargestMap(slam->Finish()).valid());
 }
 
 TEST_P(SlamTest, GoesAwayWithoutFinish) {

@@ -34,8 +34,21 @@ struct TrackerInput {
   ResetRequest reset;
 };
 
-using MapperInput = std::variant<std::unique_ptr<const KeyframeProposal>, ResetRequest>;
-using Event = std::variant<TrackingResult, MapUpdate, ResetRequest>;
+using MapperInput =
+    std::variant<std::unique_ptr<const KeyframeProposal>, ResetRequest,
+                 std::unique_ptr<const MapCorrection>, std::unique_ptr<const PoseRefinement>>;
+using Event = std::variant<TrackingResult, MapUpdate, ResetRequest, LoopRecord>;
+
+// What the places thread works on.
+struct RefinedKeyframe {
+  KeyframeId keyframe;
+  std::shared_ptr<const MapSnapshot> snapshot;
+};
+struct CorrectedMap {
+  MapId map;
+  std::shared_ptr<const MapSnapshot> snapshot;
+};
+using PlaceInput = std::variant<RefinedKeyframe, CorrectedMap, LostFrame, ResetRequest>;
 
 template <typename... Visitors>
 struct Overload : Visitors... {
@@ -66,11 +79,15 @@ struct Slam::ThreadedExecutor::Shared {
         detector(std::move(some_detector)),
         tracker(camera, options.tracking),
         mapper(camera, options.tracking.orb, options.tracking.depth, options.mapping),
+        places(camera, options.tracking.orb, options.tracking.depth, options.places),
+        adjuster(camera, options),
         frames(static_cast<std::size_t>(options.pipeline.frame_queue),
                policy == FeedPolicy::kWait ? OnFull::kBlock : OnFull::kDropOldest),
         observed(1),
         to_detect(1, OnFull::kDropOldest),
         proposals(kUnbounded),  // bounded by the keyframe policy's max_in_flight
+        to_places(kUnbounded),
+        late_corrections(kUnbounded),
         events(kUnbounded) {
     if (detector) {
       detector_thread = std::thread(
@@ -78,6 +95,7 @@ struct Slam::ThreadedExecutor::Shared {
     }
     tracker_thread = std::thread([this] { Guard([this] { RunTracker(); }); });
     mapper_thread = std::thread([this] { Guard([this] { RunMapper(); }); });
+    places_thread = std::thread([this] { Guard([this] { RunPlaces(); }); });
     sink_thread = std::thread([this] { Guard([this] { RunSinks(); }); });
   }
 
@@ -91,6 +109,11 @@ struct Slam::ThreadedExecutor::Shared {
   std::shared_ptr<const Detections> NewestDetections(const std::shared_ptr<const RgbdFrame>& frame);
   void RunTracker();
   void RunMapper();
+  void MapKeyframe(const KeyframeProposal& proposal);
+  void Correct(const MapperInput& input);
+  void RunPlaces();
+  void RecognisePlaces(const RefinedKeyframe& refined);
+  void SendCorrection(MapperInput correction);
   void RunSinks();
   void Publish(const MapUpdate& update);
   void Guard(const std::function<void()>& run);
@@ -110,7 +133,9 @@ struct Slam::ThreadedExecutor::Shared {
   const std::unique_ptr<Detector> detector;  // used by the detector thread; may be null
   Tracker tracker;                           // owned by the tracker thread
   Mapper mapper;                             // owned by the mapper thread
-  std::vector<FrameRecord> records;          // owned by the sink thread
+  PlaceStage places;                         // owned by the places thread
+  const FullAdjuster adjuster;
+  std::vector<FrameRecord> records;  // owned by the sink thread
 
   Channel<TrackerInput> frames;
   Channel<TrackerInput> observed;                       // every frame: what the detector has seen
@@ -119,6 +144,10 @@ struct Slam::ThreadedExecutor::Shared {
   Gate first_detection;          // live: waited for once, so that no map starts with people in it
   std::int64_t num_tracked = 0;  // owned by the tracker thread
   Channel<MapperInput> proposals;
+  Channel<PlaceInput> to_places;
+  Channel<MapperInput> late_corrections;  // of the last keyframes, when no more proposals come
+  Latest<PlaceHint> newest_hint;
+  std::optional<FrameId> asked_for_hint;  // owned by the tracker thread
   Channel<Event> events;
   Latest<MapSnapshot> latest;
   Gate in_flight;  // proposals sent and not refined yet
@@ -129,6 +158,7 @@ struct Slam::ThreadedExecutor::Shared {
   std::thread detector_thread;
   std::thread tracker_thread;
   std::thread mapper_thread;
+  std::thread places_thread;
   std::thread sink_thread;
 };
 
@@ -170,6 +200,8 @@ void Slam::ThreadedExecutor::Shared::RunTracker() {
   while (auto input = source.Pop()) {
     if (!input->frame) {
       newest_detections.Publish(nullptr);
+      newest_hint.Publish(nullptr);
+      asked_for_hint.reset();
       tracker.Reset();
       in_flight.Enter();
       events.Push(ResetRequest{});
@@ -177,7 +209,13 @@ void Slam::ThreadedExecutor::Shared::RunTracker() {
       continue;
     }
     if (detector && is_live) input->detections = NewestDetections(input->frame);
-    TrackerOutput output = tracker.Process(*input->frame, latest.Get(), input->detections.get());
+    const auto hint = newest_hint.Get();
+    TrackerOutput output =
+        tracker.Process(*input->frame, latest.Get(), input->detections.get(), hint.get());
+    if (output.lost && (!asked_for_hint || (hint && hint->frame == *asked_for_hint))) {
+      asked_for_hint = output.lost->data->frame;
+      to_places.Push(std::move(*output.lost));
+    }
     if (output.proposal) {
       in_flight.Enter();
       proposals.Push(std::make_unique<const KeyframeProposal>(std::move(*output.proposal)));
@@ -192,20 +230,85 @@ void Slam::ThreadedExecutor::Shared::RunTracker() {
 void Slam::ThreadedExecutor::Shared::RunMapper() {
   LowerPriorityOfThisThread(mapper_nice);
   while (auto input = proposals.Pop()) {
-    if (const auto* reset = std::get_if<ResetRequest>(&*input)) {
+    if (auto* reset = std::get_if<ResetRequest>(&*input)) {
       mapper.Reset();
       latest.Publish(nullptr);
-      reset->done->set_value();
+      to_places.Push(std::move(*reset));
+      in_flight.Leave();
+    } else if (const auto* proposal = std::get_if<0>(&*input)) {
+      MapKeyframe(**proposal);
+      in_flight.Leave();
     } else {
-      const MapUpdate inserted = mapper.Insert(*std::get<0>(*input));
-      Publish(inserted);
-      if (inserted.step == MapUpdate::Step::kInserted) {
-        Publish(mapper.Refine([this] { return proposals.HasWaiting(); }));
-      }
+      Correct(*input);
     }
-    in_flight.Leave();
   }
+  to_places.Close();
+  while (auto input = late_corrections.Pop())
+    Correct(*input);
   events.Close();
+}
+
+void Slam::ThreadedExecutor::Shared::MapKeyframe(const KeyframeProposal& proposal) {
+  const MapUpdate inserted = mapper.Insert(proposal);
+  Publish(inserted);
+  if (inserted.step != MapUpdate::Step::kInserted) return;
+  const MapUpdate refined = mapper.Refine([this] { return proposals.HasWaiting(); });
+  Publish(refined);
+  to_places.Push(RefinedKeyframe{refined.keyframe, refined.snapshot});
+}
+
+// A whole map is adjusted by the places thread, or here, once that takes nothing new any more.
+void Slam::ThreadedExecutor::Shared::Correct(const MapperInput& input) {
+  if (const auto* refinement = std::get_if<std::unique_ptr<const PoseRefinement>>(&input)) {
+    Publish(mapper.Apply(**refinement));
+    return;
+  }
+  const MapCorrection& correction = *std::get<std::unique_ptr<const MapCorrection>>(input);
+  const MapUpdate corrected = mapper.Apply(correction);
+  Publish(corrected);
+  if (!corrected.correction->is_applied()) return;
+  const MapId map = MapAfter(correction);
+  if (to_places.PushFeedback(CorrectedMap{map, corrected.snapshot})) return;
+  if (const auto refinement = adjuster.Adjust(*corrected.snapshot, map)) {
+    Publish(mapper.Apply(*refinement));
+  }
+}
+
+void Slam::ThreadedExecutor::Shared::RunPlaces() {
+  LowerPriorityOfThisThread(mapper_nice);
+  while (auto input = to_places.Pop()) {
+    if (const auto* refined = std::get_if<RefinedKeyframe>(&*input)) {
+      RecognisePlaces(*refined);
+    } else if (const auto* corrected = std::get_if<CorrectedMap>(&*input)) {
+      auto refinement = adjuster.Adjust(*corrected->snapshot, corrected->map);
+      if (refinement) {
+        SendCorrection(std::make_unique<const PoseRefinement>(std::move(*refinement)));
+      }
+    } else if (const auto* lost = std::get_if<LostFrame>(&*input)) {
+      const auto snapshot = latest.Get();
+      newest_hint.Publish(std::make_shared<const PlaceHint>(
+          places.Find(*lost, snapshot ? *snapshot : MapSnapshot{})));
+    } else {
+      places.Reset();
+      newest_hint.Publish(nullptr);
+      std::get<ResetRequest>(*input).done->set_value();
+    }
+  }
+  late_corrections.Close();
+}
+
+void Slam::ThreadedExecutor::Shared::RecognisePlaces(const RefinedKeyframe& refined) {
+  LoopOutcome outcome = places.OnKeyframe(refined.keyframe, *refined.snapshot);
+  for (LoopRecord& record : outcome.records)
+    events.Push(std::move(record));
+  if (outcome.correction) {
+    SendCorrection(std::make_unique<const MapCorrection>(std::move(*outcome.correction)));
+  }
+}
+
+// To the mapper, or past its queue once no more proposals come and that is closed.
+void Slam::ThreadedExecutor::Shared::SendCorrection(MapperInput correction) {
+  if (!proposals.TryPushFeedback(correction)) late_corrections.Push(std::move(correction));
 }
 
 void Slam::ThreadedExecutor::Shared::Publish(const MapUpdate& update) {
@@ -223,6 +326,10 @@ void Slam::ThreadedExecutor::Shared::RunSinks() {
                         [this](const MapUpdate& update) {
                           for (const auto& sink : sinks)
                             sink->OnMap(update);
+                        },
+                        [this](const LoopRecord& record) {
+                          for (const auto& sink : sinks)
+                            sink->OnLoop(record);
                         },
                         [this](const ResetRequest&) { records.clear(); }},
                *event);
@@ -243,6 +350,7 @@ void Slam::ThreadedExecutor::Shared::Guard(const std::function<void()>& run) {
     frames.Discard();
     observed.Discard();
     proposals.Discard();
+    to_places.Discard();
   }
 }
 
@@ -269,13 +377,16 @@ void Slam::ThreadedExecutor::Shared::CloseAll() {
   observed.Close();
   to_detect.Close();
   proposals.Close();
+  to_places.Close();
+  late_corrections.Close();
   events.Close();
   in_flight.Open();
   first_detection.Open();
 }
 
 void Slam::ThreadedExecutor::Shared::Join() {
-  for (std::thread* thread : {&detector_thread, &tracker_thread, &mapper_thread, &sink_thread}) {
+  for (std::thread* thread :
+       {&detector_thread, &tracker_thread, &mapper_thread, &places_thread, &sink_thread}) {
     if (thread->joinable()) thread->join();
   }
 }

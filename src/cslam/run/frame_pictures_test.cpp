@@ -8,10 +8,14 @@
 namespace cslam {
 namespace {
 
+// Lines are anti-aliased, so a colour hardly appears pure.
 bool HasColour(const cv::Mat& picture, const cv::Vec3b& colour) {
+  constexpr double kTolerance = 60.0;
   for (int v = 0; v < picture.rows; ++v) {
     for (int u = 0; u < picture.cols; ++u) {
-      if (picture.at<cv::Vec3b>(v, u) == colour) return true;
+      if (cv::norm(cv::Vec3d(picture.at<cv::Vec3b>(v, u)) - cv::Vec3d(colour)) < kTolerance) {
+        return true;
+      }
     }
   }
   return false;

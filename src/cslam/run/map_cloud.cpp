@@ -64,7 +64,7 @@ std::array<std::uint8_t, 3> ColourAt(const cv::Mat& bgr, const Eigen::Vector2f& 
 
 std::vector<ColoredPoint> ColourMap(const RunResult& result, const DatasetReader& dataset) {
   const MapView& view = result.snapshot->map;
-  const MapId map = LargestMap(result.frames);
+  const MapId map = LargestMap(result);
   std::vector<ColoredPoint> cloud;
   SourcesByKeyframe sources;
   for (std::size_t i = 0; i < view.num_point_ids(); ++i) {

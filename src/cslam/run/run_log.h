@@ -27,6 +27,7 @@ struct MappingCounts {
 struct RunLog {
   std::vector<TrackingResult> frames;                // one per frame processed, in order
   std::vector<std::vector<StageTime>> mapper_steps;  // one per keyframe: insertion and refinement
+  std::vector<LoopRecord> loops;                     // candidates, in order
   MappingCounts mapping;
   std::optional<double> first_pose_ms;  // from the start of the process to the first pose
 };
@@ -35,6 +36,7 @@ struct RunLog {
 class RunRecorder : public OutputSink {
  public:
   void OnFrame(const TrackingResult& result) override;
+  void OnLoop(const LoopRecord& record) override { log_.loops.push_back(record); }
   void OnMap(const MapUpdate& update) override;
 
   // After Slam::Finish().

@@ -51,7 +51,7 @@ std::size_t EstimateBytes(const Keyframe& keyframe) {
 
 MapCounts CountMap(const RunResult& result) {
   MapCounts counts;
-  const MapId map = LargestMap(result.frames);
+  const MapId map = LargestMap(result);
   const MapView& view = result.snapshot->map;
   std::set<MapId> maps;
   for (const FrameRecord& frame : result.frames) {

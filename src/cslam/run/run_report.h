@@ -24,8 +24,8 @@ struct RunIdentity {
   std::filesystem::path sequence;
   std::filesystem::path folder;  // of the results
   RunSettings settings;
-  DetectorInfo detector;  // kind "none" if there was none
-  std::string schedule;   // of its detections: "every-frame" or "live"
+  DetectorInfo detector = {};  // kind "none" if there was none
+  std::string schedule = {};   // of its detections: "every-frame" or "live"
 };
 
 // Input frames are those that were read or should have been: all of the sequence, or of the part

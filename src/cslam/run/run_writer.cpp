@@ -7,6 +7,7 @@
 #include "cslam/io/point_cloud_file.h"
 #include "cslam/io/trajectory_file.h"
 #include "cslam/run/frames_csv.h"
+#include "cslam/run/loops_json.h"
 #include "cslam/run/map_cloud.h"
 #include "cslam/run/run_json.h"
 #include "cslam/util/atomic_file.h"
@@ -96,6 +97,8 @@ void WriteRunFolder(const RunReport& report, const RunOutcome& outcome,
   steps.Run([&] { WriteFileAtomically(folder / "config.yaml", EffectiveYaml(options)); });
   steps.Run(
       [&] { WriteFileAtomically(folder / "frames.csv", FormatFramesCsv(outcome.log.frames)); });
+  steps.Run(
+      [&] { WriteFileAtomically(folder / "loops.json", FormatLoopsJson(outcome.log.loops)); });
   steps.Run([&] {
     WritePointCloud(folder / "map.ply", ColourMap(outcome.result, dataset),
                     "map points, metres, world frame of trajectory.txt");

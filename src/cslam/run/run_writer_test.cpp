@@ -25,9 +25,9 @@ using testing::Not;
 constexpr int kNumFrames = 20;
 constexpr RunSettings kInline = {.execution = Execution::kInline, .rate = PlayRate::kMax};
 const std::vector<std::string>& RepeatableFiles() {
-  static const std::vector<std::string> kFiles = {"trajectory.txt", "trajectory_live.txt",
-                                                  "keyframes.txt",  "map.ply",
-                                                  "config.yaml",    "trajectory.svg"};
+  static const std::vector<std::string> kFiles = {
+      "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "loops.json",
+      "map.ply",        "config.yaml",         "trajectory.svg"};
   return kFiles;
 }
 
@@ -71,10 +71,10 @@ class RunWriterTest : public testing::Test {
 TEST_F(RunWriterTest, WritesEveryFileAndNoOther) {
   const FinishedRun run = RunInto(folder_.path(), dataset_);
   Write(run, dataset_);
-  EXPECT_EQ(
-      FilesIn(folder_.path()),
-      (std::set<std::string>{"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "frames.csv",
-                             "map.ply", "config.yaml", "run.json", "trajectory.svg"}));
+  EXPECT_EQ(FilesIn(folder_.path()),
+            (std::set<std::string>{"trajectory.txt", "trajectory_live.txt", "keyframes.txt",
+                                   "frames.csv", "loops.json", "map.ply", "config.yaml", "run.json",
+                                   "trajectory.svg"}));
   const Trajectory poses = ReadTrajectory(folder_ / "trajectory.txt");
   ASSERT_EQ(poses.size(), static_cast<std::size_t>(kNumFrames));
   EXPECT_EQ(FormatStamp(poses[3].stamp), FormatStamp(dataset_.stamp(3)));

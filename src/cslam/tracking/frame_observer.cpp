@@ -84,8 +84,8 @@ std::shared_ptr<KeyframeData> FrameObserver::Observe(
   if (!options_.objects.enabled) return data;
 
   const PosePrediction pose = prediction.value_or(PosePrediction{});
-  objects_.Observe(frame.id, frame.stamp, MakeDepthView(frame.depth_m, camera_),
-                   pose.T_world_camera, pose.T_world_last, detections);
+  objects_.Observe(frame.id, frame.stamp, frame.depth_m, pose.T_world_camera, pose.T_world_last,
+                   detections);
   std::vector<std::uint8_t> is_dynamic = Label(data->features);
   const auto num_dynamic = std::count(is_dynamic.begin(), is_dynamic.end(), std::uint8_t{1});
   result.num_dynamic_keypoints = static_cast<int>(num_dynamic);

@@ -17,6 +17,14 @@ constexpr std::size_t Index(int i) {
   return static_cast<std::size_t>(i);
 }
 
+std::vector<PointId> PointsOf(const Keyframe& keyframe) {
+  std::vector<PointId> points;
+  for (const PointId id : keyframe.points) {
+    if (id.valid()) points.push_back(id);
+  }
+  return points;
+}
+
 bool IsNear(const Keypoint& keypoint, const DepthOptions& options) {
   return keypoint.HasDepth() && static_cast<double>(keypoint.depth_m) < options.near_depth_m();
 }
@@ -63,15 +71,17 @@ void Tracker::ForgetMap() {
 
 TrackerOutput Tracker::Process(const RgbdFrame& frame,
                                const std::shared_ptr<const MapSnapshot>& snapshot,
-                               const Detections* detections) {
+                               const Detections* detections, const PlaceHint* hint) {
   snapshot_ = snapshot ? snapshot : std::make_shared<const MapSnapshot>();
   history_.Update(snapshot_->map);
+  FollowMerges();
 
   CurrentFrame current;
   Observe(frame, detections, current);
   if (state_ == TrackingState::kTracking || state_ == TrackingState::kRecentlyLost) {
     TrackFrame(current);
   }
+  if (!current.is_tracked && hint != nullptr) Relocalise(current, *hint);
   const bool may_start = state_ == TrackingState::kInitialising || state_ == TrackingState::kLost;
   if (may_start && !current.is_tracked) StartMap(current);
   if (current.is_tracked && !current.proposal) {
@@ -185,6 +195,61 @@ bool Tracker::EstimateFromMotion(CurrentFrame& current) {
   current.estimate =
       EstimatePose(current.features(), std::move(matches), current.T_world_predicted,
                    Provisional::kUse, camera_, options_.depth.baseline_m, model_, options_.pose);
+  return current.estimate.num_inliers() >= options_.min_first_inliers;
+}
+
+// Merging maps renames them: the tracker is where its reference keyframe is.
+void Tracker::FollowMerges() {
+  if (!history_.reference().valid()) return;
+  const auto anchored = snapshot_->map.Resolve(history_.reference());
+  if (anchored) map_ = snapshot_->map.FindKeyframe(anchored->keyframe)->map;
+}
+
+// Goes on at a place that was recognised, if the map is found there.
+void Tracker::Relocalise(CurrentFrame& current, const PlaceHint& hint) {
+  if (!hint.is_found || state_ == TrackingState::kTracking) return;
+  if (SecondsBetween(current.data->stamp, hint.stamp) > options_.max_hint_age_s) return;
+  if (!EstimateFromPlace(current, hint)) return;
+  RefineWithLocalMap(current);
+  const int inliers = current.estimate.num_inliers();
+  if (inliers < options_.min_relocalised_inliers) return;
+  CountSightings(current);
+  velocity_.reset();
+  last_data_.reset();  // nothing is known of the way here
+  current.is_tracked = true;
+  state_ = TrackingState::kTracking;
+  map_ = snapshot_->map.FindKeyframe(current.reference)->map;
+  current.result.reason = fmt::format("relocalised: {}, {} inliers", hint.reason, inliers);
+}
+
+// Projects what the keyframes around a recognised place see.
+bool Tracker::EstimateFromPlace(CurrentFrame& current, const PlaceHint& hint) {
+  const MapView& map = snapshot_->map;
+  const auto anchored = map.Resolve(hint.reference);
+  if (!anchored) return false;
+  const Keyframe& reference = *map.FindKeyframe(anchored->keyframe);
+  const Se3 T_world_camera =
+      reference.T_world_camera * anchored->T_keyframe_self * hint.T_reference_camera;
+  LocalMapOptions wide = options_.local_map;
+  wide.radius_factor *= options_.hint_radius_factor;
+  const auto points = PointsOf(reference);
+  const auto expected = ExpectPoints(map, points, T_world_camera, camera_, bounds_,
+                                     options_.depth.baseline_m, model_, wide);
+  std::vector<ProjectionQuery> queries;
+  for (const ExpectedPoint& point : expected)
+    queries.push_back(point.query);
+  const auto found = MatchByProjection(
+      current.features(), queries,
+      {.max_distance = options_.local_map.match_distance, .max_ratio = wide.match_ratio});
+  FrameMatches matches(current.features().size());
+  for (const Match& match : found) {
+    const PointId id = expected[Index(match.query)].point;
+    matches[Index(match.keypoint)] = {Landmark::Kind::kMapPoint, id, map.FindPoint(id)->p_world};
+  }
+  current.estimate =
+      EstimatePose(current.features(), std::move(matches), T_world_camera, Provisional::kIgnore,
+                   camera_, options_.depth.baseline_m, model_, options_.pose);
+  current.reference = anchored->keyframe;
   return current.estimate.num_inliers() >= options_.min_first_inliers;
 }
 
@@ -409,7 +474,9 @@ TrackerOutput Tracker::Report(CurrentFrame& current) {
     result.T_reference_camera = history_.T_reference_last();
     result.num_inliers = current.estimate.num_inliers();
   }
-  return {std::move(result), std::move(current.proposal)};
+  std::optional<LostFrame> lost;
+  if (!current.is_tracked && snapshot_->map.num_keyframes() > 0) lost = LostFrame{current.data};
+  return {std::move(result), std::move(current.proposal), std::move(lost)};
 }
 
 }  // namespace cslam

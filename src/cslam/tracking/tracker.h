@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/messages/messages.h"
+#include "cslam/messages/place_hint.h"
 #include "cslam/tracking/frame_matches.h"
 #include "cslam/tracking/frame_observer.h"
 #include "cslam/tracking/local_map.h"
@@ -17,6 +18,7 @@ namespace cslam {
 struct TrackerOutput {
   TrackingResult result;
   std::optional<KeyframeProposal> proposal;
+  std::optional<LostFrame> lost;  // the frame, if its pose was not found in a map there is
 };
 
 // Estimates the camera pose of every frame against the newest map snapshot, and proposes
@@ -29,9 +31,10 @@ class Tracker {
   Tracker(const Camera& camera, const TrackerOptions& options);
 
   // Frames in order of time. snapshot: the newest there is; null before the first. detections: the
-  // newest there are, of this frame or an earlier one; null: none yet.
+  // newest there are, of this frame or an earlier one; null: none yet. hint: what is known of the
+  // place of the last frame reported as lost; null: nothing.
   TrackerOutput Process(const RgbdFrame& frame, const std::shared_ptr<const MapSnapshot>& snapshot,
-                        const Detections* detections = nullptr);
+                        const Detections* detections = nullptr, const PlaceHint* hint = nullptr);
 
   // Forgets everything but the ids handed out: the next good frame starts a new map.
   void Reset();
@@ -44,6 +47,9 @@ class Tracker {
   void TrackFrame(CurrentFrame& current);
   bool EstimateFromMotion(CurrentFrame& current);
   bool EstimateFromReference(CurrentFrame& current);
+  bool EstimateFromPlace(CurrentFrame& current, const PlaceHint& hint);
+  void Relocalise(CurrentFrame& current, const PlaceHint& hint);
+  void FollowMerges();
   void RefineWithLocalMap(CurrentFrame& current);
   void CountSightings(const CurrentFrame& current);
   void FailToTrack(CurrentFrame& current, std::string reason);

@@ -75,6 +75,12 @@ void Describe(OptionList& list, TrackerOptions& o) {
            "Most differing descriptor bits of a match without prediction.");
   list.Add("reference_match_ratio", o.reference_match_ratio, {0.1, 1.0}, "",
            "Best descriptor distance over second best of a match without prediction.");
+  list.Add("max_hint_age", o.max_hint_age_s, {0.0, 60.0}, "s",
+           "A lost frame's recognised place is of use for frames this much later.");
+  list.Add("hint_radius_factor", o.hint_radius_factor, {1.0, 20.0}, "",
+           "Widens the search around a recognised place: the camera has moved on since.");
+  list.Add("min_relocalised_inliers", o.min_relocalised_inliers, {10, 1000}, "matches",
+           "Inliers that a frame needs for tracking to go on at a recognised place.");
 }
 
 }  // namespace cslam

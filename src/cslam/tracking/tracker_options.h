@@ -57,6 +57,9 @@ struct TrackerOptions {
   double recently_lost_s = 2.0;
   int reference_match_distance = 50;
   double reference_match_ratio = 0.7;
+  double max_hint_age_s = 0.5;
+  double hint_radius_factor = 3.0;
+  int min_relocalised_inliers = 50;
 };
 void Describe(OptionList& list, TrackerOptions& options);
 

@@ -49,6 +49,12 @@ class Channel {
     return Append(std::move(value));
   }
 
+  // As PushFeedback(), but leaves value with the caller when the channel is closed.
+  bool TryPushFeedback(T& value) {
+    const std::scoped_lock lock(mutex_);
+    return !closed_ && Append(std::move(value));
+  }
+
   // Waits for an item; nullopt once the channel is closed and drained.
   std::optional<T> Pop() {
     std::unique_lock lock(mutex_);

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/loop/place_stage.h"
+
+#include "cslam/util/options.h"
+
+namespace cslam {
+
+void Describe(OptionList& list, PlaceOptions& o) {
+  list.Add("close_loops", o.close_loops,
+           "Correct the map where a place is seen again, and merge maps that share one.");
+  list.Add("relocalise", o.relocalise, "Look for the place of frames that tracking lost.");
+  list.Group("index", o.index);
+  list.Group("loop", o.loop);
+  list.Group("relocaliser", o.relocaliser);
+}
+
+PlaceStage::PlaceStage(const Camera& camera, const OrbOptions& orb, const DepthOptions& depth,
+                       const PlaceOptions& options)
+    : options_(options),
+      index_(options.index),
+      closer_(MakePlaceSensor(camera, orb, depth), options.loop),
+      relocaliser_(MakePlaceSensor(camera, orb, depth), options.relocaliser) {}
+
+LoopOutcome PlaceStage::OnKeyframe(KeyframeId keyframe, const MapSnapshot& snapshot) {
+  const Keyframe* seen = snapshot.map.FindKeyframe(keyframe);
+  if (seen == nullptr) return {};  // culled at once
+  LoopOutcome outcome;
+  if (options_.close_loops) outcome = closer_.Process(keyframe, snapshot.map, index_);
+  index_.Add(keyframe,
+             SelectDescriptors(seen->data->features, PlaceKeypoints(snapshot.map, *seen)));
+  return outcome;
+}
+
+PlaceHint PlaceStage::Find(const LostFrame& frame, const MapSnapshot& snapshot) const {
+  PlaceHint hint;
+  hint.frame = frame.data->frame;
+  hint.stamp = frame.data->stamp;
+  const RelocalisationResult result = relocaliser_.Find(frame.data->features, snapshot.map, index_);
+  hint.reason = result.reason;
+  if (!result.found) return hint;
+  hint.is_found = true;
+  hint.reference = result.found->reference;
+  hint.T_reference_camera = result.found->T_reference_camera;
+  return hint;
+}
+
+void PlaceStage::Reset() {
+  index_ = PlaceIndex(options_.index);
+  closer_.Reset();
+}
+
+}  // namespace cslam

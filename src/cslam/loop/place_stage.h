@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/loop/loop_closer.h"
+#include "cslam/loop/place_index.h"
+#include "cslam/loop/relocaliser.h"
+#include "cslam/messages/messages.h"
+#include "cslam/messages/place_hint.h"
+
+#include <memory>
+
+namespace cslam {
+
+class OptionList;
+
+struct PlaceOptions {
+  bool close_loops = true;
+  bool relocalise = true;
+  PlaceIndexOptions index;
+  LoopOptions loop;
+  RelocaliserOptions relocaliser;
+};
+void Describe(OptionList& list, PlaceOptions& options);
+
+// All that recognises places: the index of keyframes, loop closing and relocalisation. Synchronous
+// and single-threaded; reads snapshots only.
+class PlaceStage {
+ public:
+  PlaceStage(const Camera& camera, const OrbOptions& orb, const DepthOptions& depth,
+             const PlaceOptions& options);
+
+  // For every keyframe once the mapper has refined it: looks for places seen before, then files it.
+  LoopOutcome OnKeyframe(KeyframeId keyframe, const MapSnapshot& snapshot);
+
+  // Searches all maps for the place of a frame that tracking lost.
+  PlaceHint Find(const LostFrame& frame, const MapSnapshot& snapshot) const;
+
+  void Reset();
+
+ private:
+  const PlaceOptions options_;
+  PlaceIndex index_;
+  LoopCloser closer_;
+  Relocaliser relocaliser_;
+};
+
+}  // namespace cslam
