@@ -118,7 +118,7 @@ TEST_F(RunWriterTest, WritesTheFolderWhenNothingWasTracked) {
   const FinishedRun run = RunInto(folder_ / "out", dataset_);
   PrepareRunFolder(folder_ / "out");
   Write(run, dataset_);
-  EXPECT_EQ(FilesIn(folder_ / "out").size(), 8U);
+  EXPECT_EQ(FilesIn(folder_ / "out").size(), 9U);
   EXPECT_TRUE(ReadTrajectory(folder_ / "out" / "trajectory.txt").empty());
   EXPECT_THAT(FormatRunSummary(run.report), HasSubstr("0.0 % (0 of 20)"));
 }
