@@ -449,6 +449,7 @@ void ObjectTracker::Remember() {
 std::vector<TrackedObject> ObjectTracker::objects() const {
   std::vector<TrackedObject> result;
   for (const Object& object : objects_) {
+    if (object.box.empty()) continue;  // gone, and kept for the moment in case it comes back
     TrackedObject out;
     out.track = object.id;
     out.class_id = object.class_id;
