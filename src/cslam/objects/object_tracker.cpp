@@ -58,6 +58,10 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
   list.Add("enabled", o.enabled, "Leave out people and moving things; off: all is background.");
   list.Add("label_movable", o.label_movable,
            "Hold back the keypoints of things that may move, not those of people alone.");
+  list.Add(
+      "hold_back_new", o.hold_back_new,
+      "Hold back movable things until they are known to rest (the paper), instead of from when "
+      "they are seen to move.");
   list.Add("filter_motion", o.filter_motion,
            "Use movable things again once their filter finds them static.");
   list.Add("min_iou", o.min_iou, {0.01, 1.0}, "",
@@ -319,7 +323,10 @@ int ObjectTracker::FindUnknown(const Se3& T_world_camera, int num_inliers) {
   }
   constexpr std::size_t kNumViews = 2;  // one alone may have a wrong pose
   if (earlier.size() < kNumViews) return 0;
-  const auto regions = FindMovedRegions(now_.view, earlier, DynamicMask(), options_.unknown);
+  const bool people_about =
+      std::any_of(objects_.begin(), objects_.end(), [](const Object& o) { return o.is_person(); });
+  const auto regions =
+      FindMovedRegions(now_.view, earlier, DynamicMask(), !people_about, options_.unknown);
   for (const DepthRegion& region : regions)
     AddUnknown(region, T_world_camera);
   return static_cast<int>(regions.size());
@@ -375,9 +382,11 @@ void ObjectTracker::Forget() {
 KeypointLabel ObjectTracker::LabelOf(const Object& object) const {
   if (object.is_person() || object.class_id < 0) return KeypointLabel::kDynamic;
   if (!options_.label_movable) return KeypointLabel::kStatic;
-  const bool is_static =
-      options_.filter_motion && object.filter && object.filter->motion() == ObjectMotion::kStatic;
-  return is_static ? KeypointLabel::kMovable : KeypointLabel::kDynamic;
+  if (!options_.filter_motion) return KeypointLabel::kDynamic;
+  const ObjectMotion motion = object.filter ? object.filter->motion() : ObjectMotion::kUnknown;
+  const bool may_use = motion == ObjectMotion::kStatic ||
+                       (motion == ObjectMotion::kUnknown && !options_.hold_back_new);
+  return may_use ? KeypointLabel::kMovable : KeypointLabel::kDynamic;
 }
 
 std::vector<KeypointSemantics> ObjectTracker::Label(std::span<const Keypoint> keypoints) const {

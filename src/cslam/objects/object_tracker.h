@@ -23,6 +23,7 @@ class OptionList;
 struct ObjectTrackerOptions {
   bool enabled = true;          // off: every keypoint counts as background
   bool label_movable = true;    // hold back the keypoints of things that may move
+  bool hold_back_new = false;   // until they are known to rest, as in the paper
   bool filter_motion = true;    // trust movable things again once the filter finds them static
   double min_iou = 0.3;         // for a detection to be a known object
   double bridge_s = 1.0;        // how long an undetected object is carried on

@@ -108,7 +108,8 @@ TEST_F(ObjectTrackerTest, CarriesLateDetectionsForward) {
   EXPECT_GT(Iou(tracker_->objects()[0].box, box), 0.8);
 }
 
-TEST_F(ObjectTrackerTest, HoldsBackAChairUntilItIsKnownToRest) {
+TEST_F(ObjectTrackerTest, HoldsBackAChairUntilItIsKnownToRestIfAsked) {
+  options_.hold_back_new = true;
   cv::Mat depth = Wall(4.0);
   const Box box = DrawPanel(depth, 0.0, 0.2, 2.0, 0.5, 0.8);
   PlayDetected(depth, {{kChair, box}});
