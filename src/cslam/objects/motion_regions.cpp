@@ -126,19 +126,17 @@ SurfaceMotion JudgeSurface(const DepthView& now, const DepthRegion& region,
 
 std::vector<DepthRegion> FindMovedRegions(const DepthView& now,
                                           std::span<const EarlierView> earlier,
-                                          const cv::Mat& known, bool needs_all,
+                                          const cv::Mat& known,
                                           const MotionRegionOptions& options) {
   if (now.empty() || earlier.empty()) return {};
-  cv::Mat moved(now.depth_mm.size(), CV_8UC1, cv::Scalar(needs_all ? 255 : 0));
+  cv::Mat moved(now.depth_mm.size(), CV_8UC1, cv::Scalar(255));
   for (const EarlierView& view : earlier) {
     if (view.view->depth_mm.size() != now.depth_mm.size()) return {};
     const Comparison comparison(now, view, options);
     for (int v = 0; v < moved.rows; ++v) {
       auto* row = moved.ptr<std::uint8_t>(v);
       for (int u = 0; u < moved.cols; ++u) {
-        const bool is_open = (row[u] != 0) == needs_all;  // this view may still change the verdict
-        if (is_open && (comparison.At(u, v) == Seen::kThrough) != needs_all)
-          row[u] = needs_all ? 0 : 255;
+        if (row[u] != 0 && comparison.At(u, v) != Seen::kThrough) row[u] = 0;
       }
     }
   }

@@ -42,10 +42,8 @@ SurfaceMotion JudgeSurface(const DepthView& now, const DepthRegion& region,
 // Surfaces that stand where all the earlier views looked through: whatever they are, they have
 // moved. What one of them did not see (hidden, out of the picture, no reading) is never judged.
 // known (thumbnail mask, may be empty): pixels that need not be found again.
-// needs_all: false where people are known to be about: then one view that looked through is enough.
 std::vector<DepthRegion> FindMovedRegions(const DepthView& now,
                                           std::span<const EarlierView> earlier,
-                                          const cv::Mat& known, bool needs_all,
-                                          const MotionRegionOptions& options);
+                                          const cv::Mat& known, const MotionRegionOptions& options);
 
 }  // namespace cslam

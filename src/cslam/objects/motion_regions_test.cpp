@@ -22,7 +22,7 @@ TEST(FindMovedRegions, FindsABoxThatHasMovedBeforeAWall) {
   const DepthView earlier = ViewOf(before);
   const DepthView now = ViewOf(after);
   const EarlierView view{&earlier, Se3(), 0.2};
-  const auto regions = FindMovedRegions(now, {&view, 1}, {}, true, {});
+  const auto regions = FindMovedRegions(now, {&view, 1}, {}, {});
   ASSERT_EQ(regions.size(), 1U);
   EXPECT_GT(Coverage(regions[0], now_box, now.step), 0.9);
   EXPECT_LT(regions[0].num_pixels * now.step * now.step, 1.2 * now_box.area());
@@ -36,7 +36,7 @@ TEST(FindMovedRegions, FindsNothingWhenOnlyTheCameraMoves) {
   const DepthView earlier = ViewOf(before);
   const DepthView now = ViewOf(after);
   const EarlierView view{&earlier, Se3{Eigen::Quaterniond::Identity(), {0.2, 0.0, 0.0}}, 0.2};
-  EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, {}, true, {}).empty());
+  EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, {}, {}).empty());
 }
 
 TEST(FindMovedRegions, DoesNotJudgeWhatTheEarlierViewCouldNotSee) {
@@ -46,18 +46,18 @@ TEST(FindMovedRegions, DoesNotJudgeWhatTheEarlierViewCouldNotSee) {
   const DepthView earlier = ViewOf(Wall(4.0));
   const DepthView now = ViewOf(after);
   const EarlierView view{&earlier, Se3{Eigen::Quaterniond::Identity(), {-0.8, 0.0, 0.0}}, 0.2};
-  EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, {}, true, {}).empty());
+  EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, {}, {}).empty());
   // Nor where it had no reading.
   const DepthView blank = ViewOf(Wall(0.0));
   const EarlierView blind{&blank, Se3(), 0.2};
-  EXPECT_TRUE(FindMovedRegions(now, {&blind, 1}, {}, true, {}).empty());
+  EXPECT_TRUE(FindMovedRegions(now, {&blind, 1}, {}, {}).empty());
 }
 
 TEST(FindMovedRegions, TakesAMostlyChangedPictureForAWrongPose) {
   const DepthView earlier = ViewOf(Wall(4.0));
   const DepthView now = ViewOf(Wall(2.0));
   const EarlierView view{&earlier, Se3(), 0.2};
-  EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, {}, true, {}).empty());
+  EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, {}, {}).empty());
 }
 
 TEST(FindMovedRegions, LeavesOutWhatIsKnownAlready) {
@@ -67,7 +67,7 @@ TEST(FindMovedRegions, LeavesOutWhatIsKnownAlready) {
   const DepthView now = ViewOf(after);
   const EarlierView view{&earlier, Se3(), 0.2};
   const cv::Mat known(now.depth_mm.size(), CV_8UC1, cv::Scalar(255));
-  EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, known, true, {}).empty());
+  EXPECT_TRUE(FindMovedRegions(now, {&view, 1}, known, {}).empty());
 }
 
 }  // namespace

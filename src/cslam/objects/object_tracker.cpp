@@ -68,6 +68,9 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
            "Overlap of boxes from which on a detection is taken for a known object.");
   list.Add("bridge", o.bridge_s, {0.0, 60.0}, "s",
            "How long an object is carried on by its depth while the detector misses it.");
+  list.Add("first_bridge", o.first_bridge_s, {0.0, 60.0}, "s",
+           "The same for what was detected once; it grows with the time it has been seen, since "
+           "detectors of people are set to find too many rather than too few.");
   list.Add("max_history", o.max_history_frames, {1, 1000}, "frames",
            "How late detections may come.");
   list.Add("max_growth", o.max_growth, {1.0, 100.0}, "",
@@ -272,6 +275,7 @@ void ObjectTracker::Renew(std::optional<TrackId> id, const Detection& detection,
   if (known == objects_.end()) {
     Object fresh;
     fresh.id = TrackId(next_track_++);
+    fresh.first_detected = frame.stamp;
     known = objects_.insert(objects_.end(), std::move(fresh));
   }
   Object& object = *known;
@@ -323,23 +327,19 @@ int ObjectTracker::FindUnknown(const Se3& T_world_camera, int num_inliers) {
   }
   constexpr std::size_t kNumViews = 2;  // one alone may have a wrong pose
   if (earlier.size() < kNumViews) return 0;
-  const bool people_about =
-      std::any_of(objects_.begin(), objects_.end(), [](const Object& o) { return o.is_person(); });
-  const auto regions =
-      FindMovedRegions(now_.view, earlier, DynamicMask(), !people_about, options_.unknown);
+  const auto regions = FindMovedRegions(now_.view, earlier, DynamicMask(), options_.unknown);
   for (const DepthRegion& region : regions)
     AddUnknown(region, T_world_camera);
   return static_cast<int>(regions.size());
 }
 
-// A new piece of an unknown thing or a person already followed renews it.
+// A new piece of an unknown thing already followed renews it.
 void ObjectTracker::AddUnknown(const DepthRegion& region, const Se3& T_world_camera) {
   const double gap_px = 3.0 * now_.view.step;  // pieces of one thing may lie so far apart
   const Box near{region.box.x_min - gap_px, region.box.y_min - gap_px, region.box.x_max + gap_px,
                  region.box.y_max + gap_px};
   const auto known = std::find_if(objects_.begin(), objects_.end(), [&](const Object& o) {
-    return (o.class_id < 0 || o.is_person()) && !o.region.empty() &&
-           !Intersect(o.box, near).empty() &&
+    return o.class_id < 0 && !o.region.empty() && !Intersect(o.box, near).empty() &&
            std::abs(o.region.median_m - region.median_m) <
                static_cast<float>(options_.unknown.reach_m);
   });
@@ -355,7 +355,7 @@ void ObjectTracker::AddUnknown(const DepthRegion& region, const Se3& T_world_cam
   }
   Object fresh;
   fresh.id = TrackId(next_track_++);
-  fresh.detected = now_.stamp;
+  fresh.first_detected = fresh.detected = now_.stamp;
   fresh.box = region.box;
   fresh.region = region;
   fresh.reference_area_m2 = AreaM2(region);
@@ -374,8 +374,11 @@ void ObjectTracker::Forget() {
         object.class_id < 0 && object.filter && object.filter->motion() == ObjectMotion::kStatic;
     if (was_mistaken) return true;
     const double age_s = SecondsBetween(now_.stamp, object.detected);
-    return age_s >
-           (object.region.empty() ? std::min(kBlindS, options_.bridge_s) : options_.bridge_s);
+    const double seen_for_s = SecondsBetween(object.detected, object.first_detected);
+    const double bridge_s = object.class_id < 0
+                                ? options_.bridge_s
+                                : std::min(options_.bridge_s, options_.first_bridge_s + seen_for_s);
+    return age_s > (object.region.empty() ? std::min(kBlindS, bridge_s) : bridge_s);
   });
 }
 

@@ -27,6 +27,7 @@ struct ObjectTrackerOptions {
   bool filter_motion = true;    // trust movable things again once the filter finds them static
   double min_iou = 0.3;         // for a detection to be a known object
   double bridge_s = 1.0;        // how long an undetected object is carried on
+  double first_bridge_s = 0.2;  // ... if it was detected only once
   int max_history_frames = 30;  // how old a frame may be whose detections come late
   double max_growth = 1.3;      // of a carried region's size, before it no longer grows
   RegionOptions region;
@@ -94,9 +95,10 @@ class ObjectTracker {
     Box box;
     DepthRegion region;
     std::optional<ObjectFilter> filter;  // none before its first depth
-    Stamp detected;                      // the newest frame a detector saw it in
-    Stamp filtered;                      // the newest frame its filter took in
-    double reference_area_m2 = 0.0;      // of the region as detected
+    Stamp first_detected;
+    Stamp detected;                  // the newest frame a detector saw it in
+    Stamp filtered;                  // the newest frame its filter took in
+    double reference_area_m2 = 0.0;  // of the region as detected
     bool is_detected_now = false;
     bool is_person() const { return class_id == kPersonClass; }
   };
