@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace cslam {
@@ -32,6 +33,13 @@ std::string CheckPoint(const MapView& map, const MapPoint& point) {
       return fmt::format("keyframe {} does not see point {} back", o.keyframe.value(), id);
     }
     sees_reference |= o.keyframe == point.reference;
+  }
+  const MapObject* object = map.FindObject(point.object);
+  if (point.object.valid() && object == nullptr) {
+    return fmt::format("point {} is part of object {}, which is gone", id, point.object.value());
+  }
+  if (point.is_held_back != (object != nullptr && !object->is_active)) {
+    return fmt::format("point {} is held back, or is not, against its object", id);
   }
   if (!sees_reference) return fmt::format("point {} is not seen by its reference", id);
   return {};
@@ -92,6 +100,19 @@ std::string CheckKeyframe(const MapView& map, const Keyframe& keyframe) {
   return CheckTree(map, keyframe);
 }
 
+std::string CheckObject(const MapView& map, const MapObject& object) {
+  const auto id = object.id.value();
+  if (!std::isfinite(object.log_odds) || !object.centroid.allFinite() ||
+      !object.box.center.allFinite() || !object.box.size_m.allFinite()) {
+    return fmt::format("object {} is not finite", id);
+  }
+  const auto anchored = map.Resolve(object.reference);
+  if (!anchored || map.FindKeyframe(anchored->keyframe)->map != object.map) {
+    return fmt::format("the reference of object {} is gone or in another map", id);
+  }
+  return {};
+}
+
 // Each map hangs together: exactly one keyframe without a parent.
 std::string CheckRoots(const MapView& map) {
   std::map<MapId, int> roots;
@@ -122,6 +143,9 @@ std::string Map::CheckInvariants() const {
     if (auto violation = CheckKeyframe(*this, *FindKeyframe(id)); !violation.empty()) {
       return violation;
     }
+  }
+  for (const ObjectId id : Objects()) {
+    if (auto violation = CheckObject(*this, *FindObject(id)); !violation.empty()) return violation;
   }
   return CheckRoots(*this);
 }

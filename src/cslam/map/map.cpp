@@ -6,6 +6,7 @@
 #include "cslam/vision/matching.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cslam {
@@ -33,10 +34,24 @@ MapView Map::Snapshot() {
   Map copy(level_scales_);
   copy.keyframes_ = keyframes_.Share();
   copy.points_ = points_.Share();
+  copy.objects_ = objects_.Share();
+  copy.changes_ = changes_;
   copy.num_keyframes_ = num_keyframes_;
   copy.num_points_ = num_points_;
   copy.correction_epoch_ = correction_epoch_;
+  copy.loops_ = loops_;
+  copy.sessions_ = sessions_;
   return copy;
+}
+
+void Map::StartSession() {
+  sessions_.emplace_back(static_cast<std::uint32_t>(keyframes_.size()));
+}
+
+void Map::Replace(Map other) {
+  const std::uint32_t epoch = correction_epoch_;
+  *this = std::move(other);
+  correction_epoch_ = epoch + 1;
 }
 
 void Map::Clear() {
@@ -47,8 +62,16 @@ void Map::Clear() {
   }
   for (std::size_t i = 0; i < keyframes_.size(); ++i)
     keyframes_.Edit(i) = Keyframe{};
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    MapObject erased;
+    erased.id = objects_[i].id;
+    erased.state = ObjectState::kErased;
+    objects_.Edit(i) = std::move(erased);
+  }
+  changes_.reset();
   num_keyframes_ = 0;
   num_points_ = 0;
+  loops_.clear();
   AdvanceCorrectionEpoch();
 }
 
@@ -188,6 +211,9 @@ void Map::FusePoints(PointId keep, PointId drop) {
   MapPoint& dropped = points_.Edit(drop.index());
   dropped.state = PointState::kFused;
   dropped.replaced_by = keep;
+  if (!FindPoint(keep)->object.valid() && FindObject(dropped.object) != nullptr) {
+    AssignPoint(keep, dropped.object);
+  }
   for (const PointObservation& o : moved)
     AddObservation(keep, o.keyframe, o.keypoint);
   AddSightings(keep, expected, found);
@@ -224,6 +250,80 @@ void Map::MergeMaps(MapId target, MapId source, KeyframeId parent, KeyframeId ch
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (points_[i].map == source) points_.Edit(i).map = target;
   }
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    if (objects_[i].map == source) objects_.Edit(i).map = target;
+  }
+}
+
+MapObject& Map::EditObject(ObjectId id) {
+  CSLAM_CHECK(FindObject(id) != nullptr, "object {}", id.value());
+  return objects_.Edit(id.index());
+}
+
+ObjectId Map::AddObject(MapObject object) {
+  CSLAM_CHECK(object.IsAlive() && object.map.valid() && Resolve(object.reference).has_value());
+  object.id = ObjectId(static_cast<std::uint32_t>(objects_.size()));
+  const ObjectId id = object.id;
+  objects_.PushBack(std::move(object));
+  return id;
+}
+
+void Map::SetObject(MapObject object) {
+  CSLAM_CHECK(object.IsAlive() && std::isfinite(object.log_odds) && object.centroid.allFinite());
+  const bool was_active = FindObject(object.id) != nullptr && FindObject(object.id)->is_active;
+  const bool is_active = object.is_active;
+  const ObjectId id = object.id;
+  EditObject(id) = std::move(object);
+  if (was_active == is_active) return;
+  for (const PointId point : PointsOfObject(id))
+    EditPoint(point).is_held_back = !is_active;
+}
+
+void Map::MergeObjects(ObjectId keep, ObjectId drop) {
+  CSLAM_CHECK(keep != drop && FindObject(keep) != nullptr);
+  for (const PointId point : PointsOfObject(drop))
+    AssignPoint(point, keep);
+  MapObject& dropped = EditObject(drop);
+  dropped.state = ObjectState::kMerged;
+  dropped.merged_into = keep;
+  dropped.is_active = false;
+  dropped.surface.reset();
+  dropped.history = {};
+}
+
+void Map::EraseObject(ObjectId object, PointsOfErased points) {
+  for (const PointId point : PointsOfObject(object)) {
+    if (points == PointsOfErased::kErase) {
+      ErasePoint(point);
+    } else {
+      AssignPoint(point, ObjectId());
+    }
+  }
+  MapObject& erased = EditObject(object);
+  erased.state = ObjectState::kErased;
+  erased.is_active = false;
+  erased.surface.reset();
+  erased.history = {};
+}
+
+void Map::AssignPoint(PointId point, ObjectId object) {
+  const MapObject* owner = object.valid() ? FindObject(object) : nullptr;
+  CSLAM_CHECK(!object.valid() || owner != nullptr, "object {}", object.value());
+  MapPoint& landmark = EditPoint(point);
+  landmark.object = object;
+  landmark.is_held_back = owner != nullptr && !owner->is_active;
+}
+
+std::vector<PointId> Map::PointsOfObject(ObjectId object) const {
+  std::vector<PointId> points;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (points_[i].IsActive() && points_[i].object == object) points.push_back(points_[i].id);
+  }
+  return points;
+}
+
+void Map::SetChanges(std::vector<MapChange> changes) {
+  changes_ = std::make_shared<const std::vector<MapChange>>(std::move(changes));
 }
 
 void Map::AddSightings(PointId point, int expected, int found) {

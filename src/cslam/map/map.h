@@ -5,6 +5,7 @@
 #include "cslam/map/map_contents.h"
 #include "cslam/map/map_view.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,11 @@ class Map : public MapView {
 
   const std::vector<double>& level_scales() const { return level_scales_; }
 
-  // Forgets every keyframe and point; their ids stay taken.
+  // Forgets every keyframe, point and loop; their ids stay taken.
   void Clear();
+
+  // Keyframes added from now on belong to a further session.
+  void StartSession();
 
   // An immutable copy of the current revision; cost grows with the number of chunks only.
   MapView Snapshot();
@@ -60,7 +64,32 @@ class Map : public MapView {
   // source is turned round to begin at child, which becomes a child of target's keyframe parent.
   void MergeMaps(MapId target, MapId source, KeyframeId parent, KeyframeId child);
 
+  void AddLoop(const LoopEdge& loop) { loops_.push_back(loop); }
+
+  // object.id is chosen here.
+  ObjectId AddObject(MapObject object);
+
+  // Replaces what is known of an object that is alive. Its points are held back, or no longer, as
+  // is_active says.
+  void SetObject(MapObject object);
+
+  // drop continues as keep, with all its points.
+  void MergeObjects(ObjectId keep, ObjectId drop);
+
+  // The object was never there: its points are points of the room again, or erased.
+  enum class PointsOfErased : std::uint8_t { kKeep, kErase };
+  void EraseObject(ObjectId object, PointsOfErased points);
+
+  // The point is part of the object; invalid: of none.
+  void AssignPoint(PointId point, ObjectId object);
+  std::vector<PointId> PointsOfObject(ObjectId object) const;
+
+  void SetChanges(std::vector<MapChange> changes);
+
   void AdvanceCorrectionEpoch() { ++correction_epoch_; }
+
+  // Becomes another map, which nothing worked out on a snapshot of the old one may change.
+  void Replace(Map other);
 
   void AddSightings(PointId point, int expected, int found);
 
@@ -76,6 +105,7 @@ class Map : public MapView {
 
  private:
   MapPoint& EditPoint(PointId id);
+  MapObject& EditObject(ObjectId id);
   Keyframe& EditKeyframe(KeyframeId id);
   const Keypoint& KeypointOf(const PointObservation& observation) const;
   void AddSharedPoint(KeyframeId a, KeyframeId b, int change);

@@ -78,6 +78,47 @@ void CheckKeyframe(const MapContents& contents, std::size_t index) {
   }
 }
 
+void CheckLoops(const MapContents& contents) {
+  for (const LoopEdge& loop : contents.loops) {
+    if (loop.match.index() >= contents.keyframes.size() ||
+        loop.query.index() >= contents.keyframes.size() || !loop.T_match_query.IsFinite()) {
+      throw Error("a loop joins keyframes that never were");
+    }
+  }
+}
+
+void CheckSessions(const MapContents& contents) {
+  const std::vector<KeyframeId>& sessions = contents.sessions;
+  if (sessions.empty()) return;
+  if (sessions.front() != KeyframeId(0) || !std::is_sorted(sessions.begin(), sessions.end()) ||
+      !sessions.back().valid() || sessions.back().index() > contents.keyframes.size()) {
+    throw Error("its sessions are not in order");
+  }
+}
+
+void CheckObject(const MapContents& contents, std::size_t index) {
+  const MapObject& object = contents.objects[index];
+  if (object.id.index() != index || object.state > ObjectState::kErased) {
+    throw Error("object {} has a wrong id or state", index);
+  }
+  if (object.state == ObjectState::kMerged &&
+      object.merged_into.index() >= contents.objects.size()) {
+    throw Error("object {} continues as one that never was", index);
+  }
+  if (!object.IsAlive()) return;
+  if (!object.map.valid() || object.reference.index() >= contents.keyframes.size()) {
+    throw Error("object {} belongs to nothing", index);
+  }
+}
+
+void CheckChange(const MapContents& contents, const MapChange& change) {
+  const auto is_known = [&](ObjectId id) { return id.index() < contents.objects.size(); };
+  if (!is_known(change.object) || (change.new_object.valid() && !is_known(change.new_object)) ||
+      change.kind > MapChangeKind::kReplaced) {
+    throw Error("a change is of an object that never was");
+  }
+}
+
 // Whether following next(index) from somewhere never leaves [0, size).
 template <typename Next>
 bool HasCycle(std::size_t size, Next&& next) {
@@ -107,6 +148,11 @@ void CheckForwards(const MapContents& contents) {
   if (HasCycle(contents.keyframes.size(), next_keyframe)) {
     throw Error("keyframes are forwarded in a circle");
   }
+  const auto next_object = [&](std::size_t i) {
+    const MapObject& object = contents.objects[i];
+    return object.state == ObjectState::kMerged ? object.merged_into.index() : ObjectId().index();
+  };
+  if (HasCycle(contents.objects.size(), next_object)) throw Error("objects merge in a circle");
 }
 
 // In order of the keyframes, so they come out sorted.
@@ -155,11 +201,19 @@ Map::Map(MapContents contents) {
     CheckPoint(contents, i);
   for (std::size_t i = 0; i < contents.keyframes.size(); ++i)
     CheckKeyframe(contents, i);
+  for (std::size_t i = 0; i < contents.objects.size(); ++i)
+    CheckObject(contents, i);
+  for (const MapChange& change : contents.changes)
+    CheckChange(contents, change);
   CheckForwards(contents);
+  CheckLoops(contents);
+  CheckSessions(contents);
   RestoreObservations(contents);
   RestoreCovisibility(contents);
 
   level_scales_ = std::move(contents.level_scales);
+  loops_ = std::move(contents.loops);
+  if (!contents.sessions.empty()) sessions_ = std::move(contents.sessions);
   for (Keyframe& keyframe : contents.keyframes) {
     num_keyframes_ += keyframe.IsAlive() ? 1 : 0;
     keyframes_.PushBack(std::move(keyframe));
@@ -168,6 +222,9 @@ Map::Map(MapContents contents) {
     num_points_ += point.IsActive() ? 1 : 0;
     points_.PushBack(std::move(point));
   }
+  for (MapObject& object : contents.objects)
+    objects_.PushBack(std::move(object));
+  if (!contents.changes.empty()) SetChanges(std::move(contents.changes));
   if (const std::string violation = CheckInvariants(); !violation.empty()) {
     throw Error("{}", violation);
   }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "cslam/map/keyframe.h"
+#include "cslam/map/loop_edge.h"
+#include "cslam/map/map_object.h"
 #include "cslam/map/map_point.h"
 
 #include <vector>
@@ -15,6 +17,10 @@ struct MapContents {
   std::vector<double> level_scales;
   std::vector<Keyframe> keyframes;
   std::vector<MapPoint> points;
+  std::vector<MapObject> objects;
+  std::vector<MapChange> changes;
+  std::vector<LoopEdge> loops;
+  std::vector<KeyframeId> sessions;  // the first keyframe id of each; empty: all is of one
 };
 
 }  // namespace cslam

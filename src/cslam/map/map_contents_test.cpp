@@ -40,7 +40,8 @@ Map MakeTestMap() {
 }
 
 MapContents ContentsOf(const Map& map) {
-  MapContents contents{.level_scales = map.level_scales(), .keyframes = {}, .points = {}};
+  MapContents contents;
+  contents.level_scales = map.level_scales();
   for (std::size_t i = 0; i < map.num_keyframe_ids(); ++i)
     contents.keyframes.push_back(map.KeyframeSlot(i));
   for (std::size_t i = 0; i < map.num_point_ids(); ++i)

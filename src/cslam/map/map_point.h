@@ -37,10 +37,12 @@ struct MapPoint {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();   // unit, mean direction observer -> point
   float min_distance_m = 0.0F;  // distances at which the descriptor's scale is in the pyramid
   float max_distance_m = 0.0F;
-  float angle_rad = 0.0F;  // orientation of the keypoint the descriptor was taken from
-  Descriptor descriptor;   // the medoid of its observations
-  KeyframeId reference;    // moves with this keyframe on corrections
-  KeyframeId created_by;   // the keyframe that was inserted when it was made
+  float angle_rad = 0.0F;     // orientation of the keypoint the descriptor was taken from
+  Descriptor descriptor;      // the medoid of its observations
+  KeyframeId reference;       // moves with this keyframe on corrections
+  KeyframeId created_by;      // the keyframe that was inserted when it was made
+  ObjectId object;            // what it is part of, if anything
+  bool is_held_back = false;  // its object is not believed in: of no use, but still observed
   std::vector<PointObservation> observations;  // sorted by keyframe
 
   std::int32_t times_expected = 1;  // frames in which it should have been seen
@@ -49,10 +51,10 @@ struct MapPoint {
   bool IsActive() const { return state == PointState::kActive; }
 };
 
-// The one predicate that says whether a point may take part in pose estimation, bundle
-// adjustment and place recognition. Objects will extend it.
+// The one predicate that says whether a point may take part in bundle adjustment and place
+// recognition, and in pose estimation wherever the background suffices.
 inline bool IsUsable(const MapPoint& point) {
-  return point.IsActive();
+  return point.IsActive() && !point.is_held_back;
 }
 
 }  // namespace cslam

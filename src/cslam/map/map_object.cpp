@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/map/map_object.h"
+
+#include <cmath>
+
+namespace cslam {
+
+const char* ToString(ObjectState state) {
+  switch (state) {
+    case ObjectState::kCandidate:
+      return "candidate";
+    case ObjectState::kPresent:
+      return "present";
+    case ObjectState::kAbsent:
+      return "absent";
+    case ObjectState::kMerged:
+      return "merged";
+    case ObjectState::kErased:
+      return "erased";
+  }
+  return "?";
+}
+
+const char* ToString(BeliefCause cause) {
+  switch (cause) {
+    case BeliefCause::kCreated:
+      return "created";
+    case BeliefCause::kSeen:
+      return "seen";
+    case BeliefCause::kMissed:
+      return "missed";
+    case BeliefCause::kLookedThrough:
+      return "looked_through";
+    case BeliefCause::kMerged:
+      return "merged";
+  }
+  return "?";
+}
+
+const char* ToString(MapChangeKind kind) {
+  switch (kind) {
+    case MapChangeKind::kRemoved:
+      return "removed";
+    case MapChangeKind::kAdded:
+      return "added";
+    case MapChangeKind::kMoved:
+      return "moved";
+    case MapChangeKind::kReplaced:
+      return "replaced";
+  }
+  return "?";
+}
+
+double BeliefOf(const MapObject& object) {
+  return 1.0 / (1.0 + std::exp(-object.log_odds));
+}
+
+}  // namespace cslam
