@@ -116,7 +116,6 @@ LoopCloser::LoopCloser(PlaceSensor sensor, const LoopOptions& options)
 
 void LoopCloser::Reset() {
   pending_.reset();
-  loops_.clear();
 }
 
 LoopOutcome LoopCloser::Process(KeyframeId keyframe, const MapView& map, const PlaceIndex& index) {
@@ -259,9 +258,7 @@ std::optional<MapCorrection> LoopCloser::Close(LoopRecord& record, const MapView
       FindFusions(view, sides.moving, UsablePoints(map, sides.fixed), sensor_, options_.fusion);
   correction.pairs = std::move(fusions.pairs);
   correction.found = std::move(fusions.found);
-  const bool is_merge = correction.merge_into.valid();
-  if (!is_merge) loops_.push_back(correction.loop);
-  record.verdict = is_merge ? LoopVerdict::kMerged : LoopVerdict::kClosed;
+  record.verdict = correction.merge_into.valid() ? LoopVerdict::kMerged : LoopVerdict::kClosed;
   record.reason = fmt::format("{} inliers, found by {} keyframes", record.evidence.num_inliers,
                               record.evidence.num_confirmations);
   return correction;
@@ -292,7 +289,7 @@ MapCorrection LoopCloser::Solve(const LoopRecord& record, const MapView& map) co
                         map.FindKeyframe(loop.query)->T_world_camera.Inverse());
   } else if (record.evidence.drift_m >= options_.min_drift_m ||
              record.evidence.drift_rad >= options_.min_drift_deg * kDegree) {
-    correction.moves = SpreadLoop(map, loop, loops_, options_.graph);
+    correction.moves = SpreadLoop(map, loop, map.loops(), options_.graph);
   }
   return correction;
 }

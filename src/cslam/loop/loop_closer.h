@@ -38,12 +38,8 @@ class LoopCloser {
   // hold keyframes the map no longer has.
   LoopOutcome Process(KeyframeId keyframe, const MapView& map, const PlaceIndex& index);
 
-  // Forgets loops and what is pending.
+  // Forgets what is pending.
   void Reset();
-
-  // The loops closed within maps so far; RestoreLoops() when a map is continued in a later run.
-  const std::vector<LoopEdge>& loops() const { return loops_; }
-  void RestoreLoops(std::vector<LoopEdge> loops) { loops_ = std::move(loops); }
 
  private:
   // A place found by one keyframe at least, and not yet by enough.
@@ -67,7 +63,6 @@ class LoopCloser {
   const PlaceSensor sensor_;
   const LoopOptions options_;
   std::optional<Hypothesis> pending_;
-  std::vector<LoopEdge> loops_;
 };
 
 }  // namespace cslam

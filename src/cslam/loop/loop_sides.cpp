@@ -50,14 +50,17 @@ std::optional<MapTransition> TransitionBetween(const MapView& map, MapId a, MapI
     const Keyframe& keyframe = *map.FindKeyframe(id);
     if (keyframe.map == a || keyframe.map == b) keyframes.push_back(&keyframe);
   }
-  std::stable_sort(keyframes.begin(), keyframes.end(), [](const Keyframe* x, const Keyframe* y) {
-    return x->data->stamp < y->data->stamp;
+  std::stable_sort(keyframes.begin(), keyframes.end(), [&](const Keyframe* x, const Keyframe* y) {
+    return std::pair(map.SessionOf(x->id), x->data->stamp) <
+           std::pair(map.SessionOf(y->id), y->data->stamp);
   });
   std::optional<MapTransition> best;
   for (std::size_t i = 1; i < keyframes.size(); ++i) {
     const Keyframe* first = keyframes[i - 1];
     const Keyframe* second = keyframes[i];
-    if (first->map == second->map) continue;
+    if (first->map == second->map || map.SessionOf(first->id) != map.SessionOf(second->id)) {
+      continue;
+    }
     const double time_s = SecondsBetween(second->data->stamp, first->data->stamp);
     if (best && best->time_s <= time_s) continue;
     if (first->map != a) std::swap(first, second);

@@ -22,7 +22,7 @@ std::vector<std::uint8_t> Neighbourhood(const MapView& map, const Keyframe& keyf
 // The way between two keyframes of one map, along the keyframes between them.
 double PathLength(const MapView& map, const Keyframe& a, const Keyframe& b);
 
-// The two keyframes of different maps between which the least time passed.
+// The two keyframes of different maps, but of one session, between which the least time passed.
 struct MapTransition {
   KeyframeId a;
   KeyframeId b;

@@ -27,9 +27,19 @@ LoopOutcome PlaceStage::OnKeyframe(KeyframeId keyframe, const MapSnapshot& snaps
   if (seen == nullptr) return {};  // culled at once
   LoopOutcome outcome;
   if (options_.close_loops) outcome = closer_.Process(keyframe, snapshot.map, index_);
-  index_.Add(keyframe,
-             SelectDescriptors(seen->data->features, PlaceKeypoints(snapshot.map, *seen)));
+  File(*seen, snapshot.map);
   return outcome;
+}
+
+void PlaceStage::File(const Keyframe& keyframe, const MapView& map) {
+  index_.Add(keyframe.id,
+             SelectDescriptors(keyframe.data->features, PlaceKeypoints(map, keyframe)));
+}
+
+void PlaceStage::Continue(const MapSnapshot& snapshot) {
+  Reset();
+  for (const KeyframeId id : snapshot.map.Keyframes())
+    File(*snapshot.map.FindKeyframe(id), snapshot.map);
 }
 
 PlaceHint PlaceStage::Find(const LostFrame& frame, const MapSnapshot& snapshot) const {

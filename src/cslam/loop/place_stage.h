@@ -38,7 +38,12 @@ class PlaceStage {
 
   void Reset();
 
+  // The same, and files the keyframes of a map of an earlier run.
+  void Continue(const MapSnapshot& snapshot);
+
  private:
+  void File(const Keyframe& keyframe, const MapView& map);
+
   const PlaceOptions options_;
   PlaceIndex index_;
   LoopCloser closer_;

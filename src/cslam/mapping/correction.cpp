@@ -188,6 +188,8 @@ CorrectionReport ApplyCorrection(Map& map, const MapCorrection& correction) {
     map.MergeMaps(correction.merge_into, correction.map,
                   map.Resolve(correction.loop.match)->keyframe,
                   map.Resolve(correction.loop.query)->keyframe);
+  } else {
+    map.AddLoop(correction.loop);
   }
   for (const PointPair& pair : correction.pairs)
     report.points_fused += Fuse(map, pair.keep, pair.drop) ? 1 : 0;

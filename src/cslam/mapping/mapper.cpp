@@ -51,6 +51,21 @@ void Mapper::Reset() {
   on_probation_.clear();
 }
 
+MapUpdate Mapper::Continue(Map map) {
+  if (map.level_scales() != model_.level_scales()) {
+    throw Error(
+        "the map was made with another image pyramid of {} levels; give tracking.orb the values "
+        "of the run that made it",
+        map.level_scales().size());
+  }
+  Reset();
+  map_.Replace(std::move(map));
+  map_.StartSession();
+  MapUpdate update;
+  update.step = MapUpdate::Step::kContinued;
+  return Publish(std::move(update));
+}
+
 MapUpdate Mapper::Insert(const KeyframeProposal& proposal) {
   Stopwatch watch;
   MapUpdate update;

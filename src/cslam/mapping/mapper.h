@@ -36,6 +36,9 @@ class Mapper {
 
   void Reset();
 
+  // Goes on in a map of an earlier run, whose pyramid must be this one's: throws Error otherwise.
+  MapUpdate Continue(Map map);
+
   const Map& map() const { return map_; }
 
  private:

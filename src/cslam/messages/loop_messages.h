@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/geometry/se3.h"
+#include "cslam/map/loop_edge.h"
 #include "cslam/util/id.h"
 #include "cslam/util/stamp.h"
 
@@ -34,13 +35,6 @@ struct FoundPoint {
   PointId point;
   KeyframeId keyframe;
   std::int32_t keypoint = 0;
-};
-
-// The same place seen twice, with a long way between.
-struct LoopEdge {
-  KeyframeId match;
-  KeyframeId query;
-  Se3 T_match_query;
 };
 
 // loop -> mapper: a loop closes, or two maps become one.

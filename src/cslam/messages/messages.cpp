@@ -29,6 +29,8 @@ const char* ToString(KeyframeReason reason) {
       return "not_needed";
     case KeyframeReason::kNotTracking:
       return "not_tracking";
+    case KeyframeReason::kLocaliseOnly:
+      return "localise_only";
     case KeyframeReason::kFewInliers:
       return "few_inliers";
     case KeyframeReason::kMapperBusy:

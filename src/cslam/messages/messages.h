@@ -26,10 +26,17 @@ enum class TrackingState : std::uint8_t {
 };
 const char* ToString(TrackingState state);
 
+// What becomes of the frames.
+enum class TrackingMode : std::uint8_t {
+  kMapping,       // poses, and the map grows
+  kLocaliseOnly,  // poses in the map as it is: no new keyframes, nothing changes in it
+};
+
 // Why a keyframe was or was not proposed.
 enum class KeyframeReason : std::uint8_t {
   kNotNeeded,
   kNotTracking,
+  kLocaliseOnly,  // asked for nothing but the pose
   kFewInliers,  // too few inliers to trust the frame
   kMapperBusy,  // one would be useful, but enough proposals are in flight
   kStartsMap,
@@ -107,7 +114,8 @@ struct TrackingResult {
 
 // mapper -> sinks: what one step of the mapper did.
 struct MapUpdate {
-  enum class Step : std::uint8_t { kInserted, kRefined, kRefused, kCorrected };
+  // Continued: a map of an earlier run is there. Refused: the keyframe's map is gone.
+  enum class Step : std::uint8_t { kInserted, kRefined, kRefused, kCorrected, kContinued };
   Step step = Step::kInserted;
   KeyframeId keyframe;
   std::shared_ptr<const MapSnapshot> snapshot;

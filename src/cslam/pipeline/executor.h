@@ -17,6 +17,8 @@ class Slam::Executor {
   virtual TrackingResult Track(std::shared_ptr<const RgbdFrame> frame) = 0;
   virtual void Feed(std::shared_ptr<const RgbdFrame> frame) = 0;
   virtual void Reset() = 0;
+  virtual void Continue(Map map) = 0;
+  virtual void SetMode(TrackingMode mode) = 0;
   virtual RunResult Finish() = 0;
   virtual std::shared_ptr<const MapSnapshot> map() const = 0;
 };
@@ -56,6 +58,8 @@ class Slam::InlineExecutor : public Slam::Executor {
   TrackingResult Track(std::shared_ptr<const RgbdFrame> frame) override;
   void Feed(std::shared_ptr<const RgbdFrame> frame) override { Track(std::move(frame)); }
   void Reset() override;
+  void Continue(Map map) override;
+  void SetMode(TrackingMode mode) override { tracker_.SetMode(mode); }
   RunResult Finish() override;
   std::shared_ptr<const MapSnapshot> map() const override { return snapshot_; }
 
@@ -95,13 +99,18 @@ class Slam::ThreadedExecutor : public Slam::Executor {
   ~ThreadedExecutor() override;
   TrackingResult Track(std::shared_ptr<const RgbdFrame> frame) override;
   void Feed(std::shared_ptr<const RgbdFrame> frame) override;
-  void Reset() override;
+  void Reset() override { ResetOrContinue(nullptr); }
+  void Continue(Map map) override { ResetOrContinue(std::make_shared<Map>(std::move(map))); }
+  void SetMode(TrackingMode mode) override { mode_ = mode; }
   RunResult Finish() override;
   std::shared_ptr<const MapSnapshot> map() const override;
 
  private:
+  void ResetOrContinue(std::shared_ptr<Map> map);  // null: nothing to go on in
+
   struct Shared;
   std::unique_ptr<Shared> shared_;
+  TrackingMode mode_ = TrackingMode::kMapping;  // of the frames to come
 };
 
 }  // namespace cslam

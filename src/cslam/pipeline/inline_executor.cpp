@@ -64,6 +64,13 @@ void Slam::InlineExecutor::Reset() {
   records_.clear();
 }
 
+void Slam::InlineExecutor::Continue(Map map) {
+  Reset();
+  Publish(mapper_.Continue(std::move(map)));
+  tracker_.Continue(snapshot_->map);
+  places_.Continue(*snapshot_);
+}
+
 RunResult Slam::InlineExecutor::Finish() {
   RunResult result;
   result.frames = std::move(records_);

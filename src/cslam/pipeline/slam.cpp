@@ -81,6 +81,16 @@ void Slam::Reset() {
   has_last_stamp_ = false;
 }
 
+void Slam::Continue(Map map) {
+  CSLAM_CHECK(!is_finished_, "Continue() after Finish()");
+  executor_->Continue(std::move(map));
+  has_last_stamp_ = false;
+}
+
+void Slam::SetMode(TrackingMode mode) {
+  executor_->SetMode(mode);
+}
+
 const RunResult& Slam::Finish() {
   if (!is_finished_) {
     is_finished_ = true;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/geometry/camera.h"
+#include "cslam/map/map.h"
 #include "cslam/pipeline/run_result.h"
 #include "cslam/pipeline/sink.h"
 #include "cslam/pipeline/slam_options.h"
@@ -54,6 +55,16 @@ class Slam {
 
   // Forgets map and trajectory and starts anew with the next frame.
   void Reset();
+
+  // The same, but goes on in the maps of an earlier run (LoadMap() in atlas_io/map_file.h). The
+  // place of the next frames is searched there; if it is not found for tracking.recently_lost_time,
+  // a new map starts, and is merged with an old one where both show the same place. Throws Error
+  // if the image pyramid was another one. The camera must be the one that made the map.
+  void Continue(Map map);
+
+  // For frames handed over from now on, whenever wanted. What is on its way to the mapper then is
+  // still mapped.
+  void SetMode(TrackingMode mode);
 
   // Waits until everything fed is processed, tells the sinks, and returns the outcome.
   // Nothing can be fed afterwards.

@@ -20,9 +20,12 @@
 namespace cslam {
 namespace {
 
-// The promise is kept once tracker and mapper have forgotten everything.
+// The promise is kept once tracker, mapper and places have forgotten everything, or have taken over
+// the map. Nobody changes the map on its way; the mapper is the last to look at it, and takes it.
 struct ResetRequest {
   std::shared_ptr<std::promise<void>> done;
+  std::shared_ptr<Map> map;                     // to go on in; null: none
+  std::shared_ptr<const MapSnapshot> snapshot;  // the mapper's, once that has taken the map over
 };
 
 // A frame on its way to the tracker, or a request to forget all. No variant: GCC 12 believes its
@@ -31,6 +34,7 @@ struct TrackerInput {
   std::shared_ptr<const RgbdFrame> frame;                // null: reset
   std::shared_ptr<const Detections> detections;          // of this frame, if it waited for them
   std::shared_ptr<std::promise<TrackingResult>> answer;  // set when somebody waits for the pose
+  TrackingMode mode = TrackingMode::kMapping;
   ResetRequest reset;
 };
 
@@ -108,7 +112,9 @@ struct Slam::ThreadedExecutor::Shared {
   void RunDetectorFirst();
   std::shared_ptr<const Detections> NewestDetections(const std::shared_ptr<const RgbdFrame>& frame);
   void RunTracker();
+  void ForgetAll(ResetRequest request);
   void RunMapper();
+  void ResetMapper(ResetRequest& request);
   void MapKeyframe(const KeyframeProposal& proposal);
   void Correct(const MapperInput& input);
   void RunPlaces();
@@ -199,15 +205,10 @@ void Slam::ThreadedExecutor::Shared::RunTracker() {
   Channel<TrackerInput>& source = detector && !is_live ? observed : frames;
   while (auto input = source.Pop()) {
     if (!input->frame) {
-      newest_detections.Publish(nullptr);
-      newest_hint.Publish(nullptr);
-      asked_for_hint.reset();
-      tracker.Reset();
-      in_flight.Enter();
-      events.Push(ResetRequest{});
-      proposals.Push(std::move(input->reset));
+      ForgetAll(std::move(input->reset));
       continue;
     }
+    tracker.SetMode(input->mode);
     if (detector && is_live) input->detections = NewestDetections(input->frame);
     const auto hint = newest_hint.Get();
     TrackerOutput output =
@@ -227,12 +228,26 @@ void Slam::ThreadedExecutor::Shared::RunTracker() {
   proposals.Close();
 }
 
+// Of the tracker; the request goes on to the mapper.
+void Slam::ThreadedExecutor::Shared::ForgetAll(ResetRequest request) {
+  newest_detections.Publish(nullptr);
+  newest_hint.Publish(nullptr);
+  asked_for_hint.reset();
+  if (request.map) {
+    tracker.Continue(*request.map);
+  } else {
+    tracker.Reset();
+  }
+  in_flight.Enter();
+  events.Push(ResetRequest{});
+  proposals.Push(std::move(request));
+}
+
 void Slam::ThreadedExecutor::Shared::RunMapper() {
   LowerPriorityOfThisThread(mapper_nice);
   while (auto input = proposals.Pop()) {
     if (auto* reset = std::get_if<ResetRequest>(&*input)) {
-      mapper.Reset();
-      latest.Publish(nullptr);
+      ResetMapper(*reset);
       to_places.Push(std::move(*reset));
       in_flight.Leave();
     } else if (const auto* proposal = std::get_if<0>(&*input)) {
@@ -246,6 +261,17 @@ void Slam::ThreadedExecutor::Shared::RunMapper() {
   while (auto input = late_corrections.Pop())
     Correct(*input);
   events.Close();
+}
+
+void Slam::ThreadedExecutor::Shared::ResetMapper(ResetRequest& request) {
+  if (!request.map) {
+    mapper.Reset();
+    latest.Publish(nullptr);
+    return;
+  }
+  const MapUpdate continued = mapper.Continue(std::move(*request.map));
+  request.snapshot = continued.snapshot;
+  Publish(continued);
 }
 
 void Slam::ThreadedExecutor::Shared::MapKeyframe(const KeyframeProposal& proposal) {
@@ -289,9 +315,14 @@ void Slam::ThreadedExecutor::Shared::RunPlaces() {
       newest_hint.Publish(std::make_shared<const PlaceHint>(
           places.Find(*lost, snapshot ? *snapshot : MapSnapshot{})));
     } else {
-      places.Reset();
+      const auto& reset = std::get<ResetRequest>(*input);
+      if (reset.snapshot) {
+        places.Continue(*reset.snapshot);
+      } else {
+        places.Reset();
+      }
       newest_hint.Publish(nullptr);
-      std::get<ResetRequest>(*input).done->set_value();
+      reset.done->set_value();
     }
   }
   late_corrections.Close();
@@ -405,6 +436,7 @@ TrackingResult Slam::ThreadedExecutor::Track(std::shared_ptr<const RgbdFrame> fr
   shared_->frames.Push({.frame = std::move(frame),
                         .detections = nullptr,
                         .answer = std::move(promise),
+                        .mode = mode_,
                         .reset = {}});
   return shared_->WaitFor(std::move(answer));
 }
@@ -413,17 +445,24 @@ void Slam::ThreadedExecutor::Feed(std::shared_ptr<const RgbdFrame> frame) {
   if (shared_->feed_policy == FeedPolicy::kWait) {
     shared_->in_flight.WaitUntilAtMost(shared_->max_proposals_ahead);
   }
-  shared_->frames.Push(
-      {.frame = std::move(frame), .detections = nullptr, .answer = nullptr, .reset = {}});
+  shared_->frames.Push({.frame = std::move(frame),
+                        .detections = nullptr,
+                        .answer = nullptr,
+                        .mode = mode_,
+                        .reset = {}});
   shared_->RethrowFailure();
 }
 
 // Waits, so that no frame that comes later can push the request out of a queue that drops.
-void Slam::ThreadedExecutor::Reset() {
+void Slam::ThreadedExecutor::ResetOrContinue(std::shared_ptr<Map> map) {
   auto promise = std::make_shared<std::promise<void>>();
   auto done = promise->get_future();
   shared_->frames.PushFeedback(
-      {.frame = nullptr, .detections = nullptr, .answer = nullptr, .reset = {std::move(promise)}});
+      {.frame = nullptr,
+       .detections = nullptr,
+       .answer = nullptr,
+       .mode = mode_,
+       .reset = {.done = std::move(promise), .map = std::move(map), .snapshot = nullptr}});
   shared_->WaitFor(std::move(done));
 }
 

@@ -31,6 +31,8 @@ void RunRecorder::OnMap(const MapUpdate& update) {
       break;
     case MapUpdate::Step::kCorrected:
       break;
+    case MapUpdate::Step::kContinued:
+      return;
     case MapUpdate::Step::kRefused:
       ++counts.keyframes_refused;
       return;

@@ -59,8 +59,17 @@ void Tracker::Reset() {
   observer_.Clear();
 }
 
+void Tracker::Continue(const MapView& map) {
+  Reset();
+  searches_first_ = map.num_keyframes() > 0;
+  next_keyframe_ = static_cast<std::uint32_t>(map.num_keyframe_ids());
+  next_map_ = map.NextMapId().value();
+}
+
 void Tracker::ForgetMap() {
   state_ = TrackingState::kInitialising;
+  searches_first_ = false;
+  searches_since_.reset();
   map_ = MapId();
   history_.Clear();
   last_data_.reset();
@@ -82,8 +91,10 @@ TrackerOutput Tracker::Process(const RgbdFrame& frame,
     TrackFrame(current);
   }
   if (!current.is_tracked && hint != nullptr) Relocalise(current, *hint);
-  const bool may_start = state_ == TrackingState::kInitialising || state_ == TrackingState::kLost;
-  if (may_start && !current.is_tracked) StartMap(current);
+  if (!current.is_tracked && current.result.reason.empty() && hint != nullptr) {
+    current.result.reason = "place not found: " + hint->reason;
+  }
+  if (!current.is_tracked && MayStartMap(current)) StartMap(current);
   if (current.is_tracked && !current.proposal) {
     current.result.keyframe_reason = DecideKeyframe(current);
     if (IsProposal(current.result.keyframe_reason)) {
@@ -335,6 +346,7 @@ void Tracker::RefineWithLocalMap(CurrentFrame& current) {
 }
 
 void Tracker::CountSightings(const CurrentFrame& current) {
+  if (mode_ == TrackingMode::kLocaliseOnly) return;
   sightings_.resize(std::max(sightings_.size(), snapshot_->map.num_point_ids()));
   const auto entry = [&](PointId id) -> PointSightings& {
     PointSightings& sightings = sightings_[id.index()];
@@ -376,6 +388,7 @@ void Tracker::FailToTrack(CurrentFrame& current, std::string reason) {
 }
 
 KeyframeReason Tracker::DecideKeyframe(const CurrentFrame& current) const {
+  if (mode_ == TrackingMode::kLocaliseOnly) return KeyframeReason::kLocaliseOnly;
   const MapView& map = snapshot_->map;
   KeyframePolicyInput input;
   input.state = state_;
@@ -398,6 +411,15 @@ KeyframeReason Tracker::DecideKeyframe(const CurrentFrame& current) const {
     ++(is_map_point ? input.near_tracked : input.near_creatable);
   }
   return ChooseKeyframe(input, options_.keyframe);
+}
+
+bool Tracker::MayStartMap(const CurrentFrame& current) {
+  if (mode_ == TrackingMode::kLocaliseOnly) return false;
+  if (state_ == TrackingState::kLost) return true;
+  if (state_ != TrackingState::kInitialising) return false;
+  if (!searches_first_) return true;
+  if (!searches_since_) searches_since_ = current.data->stamp;
+  return SecondsBetween(current.data->stamp, *searches_since_) > options_.recently_lost_s;
 }
 
 void Tracker::StartMap(CurrentFrame& current) {

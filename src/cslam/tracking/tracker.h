@@ -39,6 +39,13 @@ class Tracker {
   // Forgets everything but the ids handed out: the next good frame starts a new map.
   void Reset();
 
+  // The same, and goes on in a map of an earlier run: its place is searched before a new map may
+  // start, and ids begin beyond its own.
+  void Continue(const MapView& map);
+
+  // For the frames to come.
+  void SetMode(TrackingMode mode) { mode_ = mode; }
+
  private:
   struct CurrentFrame;  // what is being worked out for the frame at hand
 
@@ -55,6 +62,7 @@ class Tracker {
   void FailToTrack(CurrentFrame& current, std::string reason);
   KeyframeReason DecideKeyframe(const CurrentFrame& current) const;
   void ForgetMap();
+  bool MayStartMap(const CurrentFrame& current);
   void StartMap(CurrentFrame& current);
   KeyframeProposal Propose(CurrentFrame& current, KeyframeReason reason);
   void Remember(const CurrentFrame& current);
@@ -68,7 +76,10 @@ class Tracker {
   FrameObserver observer_;
 
   std::shared_ptr<const MapSnapshot> snapshot_;
+  TrackingMode mode_ = TrackingMode::kMapping;
   TrackingState state_ = TrackingState::kInitialising;
+  bool searches_first_ = false;          // in the map that was there before the first frame
+  std::optional<Stamp> searches_since_;  // the first frame's
   MapId map_;
   std::uint32_t next_map_ = 0;
   std::uint32_t next_keyframe_ = 0;

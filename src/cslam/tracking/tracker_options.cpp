@@ -70,7 +70,8 @@ void Describe(OptionList& list, TrackerOptions& o) {
   list.Add("use_provisional_below", o.use_provisional_below, {0, 10'000}, "matches",
            "With fewer map matches the final pose also uses the last frame's own depth points.");
   list.Add("recently_lost_time", o.recently_lost_s, {0.0, 1000.0}, "s",
-           "How long a lost frame's map is searched before a new one may start.");
+           "How long the map is searched for lost frames, or for the first ones of a run that goes "
+           "on in a given map, before a new map may start.");
   list.Add("reference_match_distance", o.reference_match_distance, {1, 256}, "bits",
            "Most differing descriptor bits of a match without prediction.");
   list.Add("reference_match_ratio", o.reference_match_ratio, {0.1, 1.0}, "",
