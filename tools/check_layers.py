@@ -19,6 +19,7 @@ LAYERS = {
     "geometry": {"util"},
     "vision": {"util", "geometry"},
     "map": LOW,
+    "navigation": LOW | {"map"},
     "optim": {"util", "geometry"},
     "io": LOW | {"map"},
     "atlas_io": LOW | {"map", "io"},
