@@ -27,9 +27,9 @@ void LookAround(RoomMapper& mapper) {
       mapper.map().num_keyframe_ids() == 0
           ? KeyframeId()
           : KeyframeId(static_cast<std::uint32_t>(mapper.map().num_keyframe_ids()) - 1);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 20; ++i) {
     const Se3 pitch(ExpSo3({-0.45, 0.0, 0.0}), Eigen::Vector3d::Zero());
-    const Se3 pose = test::CirclePose(i / 12.0, 0.3) * pitch;
+    const Se3 pose = test::CirclePose(i / 20.0, 0.3) * pitch;
     last = mapper.Add(pose, pose, last);
   }
 }
@@ -53,7 +53,7 @@ TEST(BuildOccupancyGrid, HasWallsAndThingsOccupiedAndTheFloorFree) {
 
   EXPECT_TRUE(grid.has_floor);
   EXPECT_NEAR((grid.T_grid_world * Eigen::Vector3d(0.5, 1.3, 0.5)).z(), 0.0, 0.02);
-  EXPECT_EQ(grid.At(At(grid, 0.0, 0.8)), CellState::kFree);
+  EXPECT_EQ(grid.At(At(grid, 0.0, 2.0)), CellState::kFree);
   EXPECT_EQ(grid.At(At(grid, -1.5, 0.5)), CellState::kFree);
   EXPECT_EQ(grid.At(At(grid, 1.3, 1.52)), CellState::kOccupied);
   EXPECT_EQ(grid.At(At(grid, -3.0, 0.0)), CellState::kOccupied);
@@ -79,7 +79,7 @@ TEST(BuildOccupancyGrid, KeepsWhatStandsWhereSomethingWentBefore) {
   LookAround(mapper);
   const ClearedRegion gone{.T_world_box = {Eigen::Quaterniond::Identity(), {1.3, 0.9, 1.8}},
                            .size_m = {0.6, 0.8, 0.6},
-                           .last_seen = KeyframeId(11)};
+                           .last_seen = KeyframeId(19)};
 
   const OccupancyGrid grid = Build(mapper, std::span(&gone, 1));
 
