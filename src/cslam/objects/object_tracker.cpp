@@ -479,4 +479,21 @@ std::vector<TrackedObject> ObjectTracker::objects() const {
   return result;
 }
 
+std::vector<ObjectSighting> ObjectTracker::Sightings() const {
+  std::vector<ObjectSighting> sightings;
+  for (const Object& object : objects_) {
+    if (object.class_id < 0 || object.is_person() || object.region.empty()) continue;
+    if (object.filter && object.filter->motion() == ObjectMotion::kMoving) continue;
+    sightings.push_back({.track = object.id,
+                         .class_id = object.class_id,
+                         .score = object.score,
+                         .box = object.box,
+                         .region = object.region,
+                         .first_detected = object.first_detected,
+                         .detected = object.detected,
+                         .colours = {}});
+  }
+  return sightings;
+}
+
 }  // namespace cslam

@@ -6,6 +6,7 @@
 #include "cslam/objects/keypoint_labels.h"
 #include "cslam/objects/motion_regions.h"
 #include "cslam/objects/object_filter.h"
+#include "cslam/objects/object_sighting.h"
 #include "cslam/semantics/detection.h"
 #include "cslam/util/id.h"
 #include "cslam/util/stamp.h"
@@ -80,6 +81,9 @@ class ObjectTracker {
 
   // The objects of the newest frame, by id.
   std::vector<TrackedObject> objects() const;
+
+  // Those of them that have a name, a surface in this frame and do not move.
+  std::vector<ObjectSighting> Sightings() const;
 
   const DepthView& view() const { return now_.view; }
   // From here on poses are in another world: positions are forgotten, things in view are not.

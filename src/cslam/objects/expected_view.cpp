@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/objects/expected_view.h"
+
+#include "cslam/util/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cslam {
+namespace {
+
+constexpr int kBorderPx = 1;  // of depth_mm: the neighbourhood must lie inside
+
+struct Readings {
+  double here_m = 0.0;     // 0: none
+  double nearest_m = 0.0;  // of the 3 x 3 neighbourhood
+};
+
+Readings ReadAround(const cv::Mat& depth_mm, int u, int v) {
+  Readings readings{0.001 * depth_mm.at<std::uint16_t>(v, u), std::numeric_limits<double>::max()};
+  for (int dv = -kBorderPx; dv <= kBorderPx; ++dv) {
+    for (int du = -kBorderPx; du <= kBorderPx; ++du) {
+      const double z = 0.001 * depth_mm.at<std::uint16_t>(v + dv, u + du);
+      if (z > 0.0) readings.nearest_m = std::min(readings.nearest_m, z);
+    }
+  }
+  return readings;
+}
+
+PlaceVerdict Judge(const ExpectedView& view, const ExpectedViewOptions& options) {
+  const double visible = view.num_visible();
+  if (visible <= 0.0 || visible < options.min_visible_share * view.num_samples) {
+    return PlaceVerdict::kUnobserved;
+  }
+  if (view.num_through >= options.min_through_share * visible) return PlaceVerdict::kLookedThrough;
+  if (view.num_standing >= options.min_standing_share * visible) return PlaceVerdict::kStanding;
+  return PlaceVerdict::kUnobserved;
+}
+
+}  // namespace
+
+void Describe(OptionList& list, ExpectedViewOptions& o) {
+  list.Add("tolerance", o.tolerance_m, {0.0, 1.0}, "m",
+           "How far depth may lie from a stored surface: registration errors.");
+  list.Add("tolerance_per_m2", o.tolerance_per_m2, {0.0, 0.2}, "1/m",
+           "Growth of that with the depth squared: noise of stereo cameras.");
+  list.Add("max_depth", o.max_depth_m, {0.5, 20.0}, "m", "Beyond, depth says nothing.");
+  list.Add("min_visible", o.min_visible_share, {0.0, 1.0}, "",
+           "Share of a surface that must be in view, with depth and not hidden.");
+  list.Add("min_through", o.min_through_share, {0.0, 1.0}, "",
+           "Share of that which must be looked through for the place to be empty; some of what "
+           "is stored may be floor or wall.");
+  list.Add("min_standing", o.min_standing_share, {0.0, 1.0}, "",
+           "Share of that which must be there for the place to be taken.");
+}
+
+ExpectedView LookAtPlace(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
+                         const DepthSampler& depth, double pose_sigma_m,
+                         const ExpectedViewOptions& options) {
+  ExpectedView view;
+  view.num_samples = static_cast<int>(samples.size());
+  const cv::Mat& image = *depth.depth_mm;
+  for (const Eigen::Vector3f& sample : samples) {
+    const Eigen::Vector3d p = T_camera_samples * sample.cast<double>();
+    if (p.z() < 0.1 || p.z() > options.max_depth_m || image.empty()) {
+      ++view.num_outside;
+      continue;
+    }
+    Eigen::Vector2d uv = Project(*depth.camera, p);
+    if (depth.is_distorted) uv = Distort(*depth.camera, uv);
+    const int u = static_cast<int>(std::floor(uv.x() / depth.step));
+    const int v = static_cast<int>(std::floor(uv.y() / depth.step));
+    if (!(u >= kBorderPx && v >= kBorderPx && u < image.cols - kBorderPx &&
+          v < image.rows - kBorderPx)) {
+      ++view.num_outside;
+      continue;
+    }
+    const Readings readings = ReadAround(image, u, v);
+    const double tolerance =
+        options.tolerance_m + options.tolerance_per_m2 * p.z() * p.z() + pose_sigma_m;
+    if (readings.here_m <= 0.0) {
+      ++view.num_unclear;
+    } else if (readings.nearest_m > p.z() + tolerance) {
+      ++view.num_through;
+    } else if (std::abs(readings.here_m - p.z()) <= tolerance) {
+      ++view.num_standing;
+    } else if (readings.here_m < p.z()) {
+      ++view.num_hidden;
+    } else {
+      ++view.num_unclear;
+    }
+  }
+  view.verdict = Judge(view, options);
+  return view;
+}
+
+}  // namespace cslam

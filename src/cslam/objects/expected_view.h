@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/geometry/camera.h"
+#include "cslam/geometry/se3.h"
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace cslam {
+
+class OptionList;
+
+// How a place that is known is compared with what depth shows there. "Unobserved" is not "absent":
+// only what could be seen and is not there speaks against it.
+struct ExpectedViewOptions {
+  double tolerance_m = 0.03;        // of depth against a stored surface, at 0 m ...
+  double tolerance_per_m2 = 0.008;  // ... and its growth with the depth squared
+  double max_depth_m = 4.5;         // farther readings say nothing
+  double min_visible_share = 0.4;   // of the samples, before anything is concluded
+  double min_through_share = 0.6;   // of the visible ones: one looks through its place
+  double min_standing_share = 0.5;  // of the visible ones: its surface stands there
+};
+void Describe(OptionList& list, ExpectedViewOptions& options);
+
+// A reduced depth image, and how points get into it.
+struct DepthSampler {
+  const cv::Mat* depth_mm = nullptr;  // CV_16UC1, 0 = none
+  int step = 4;                       // full-size pixels per pixel of depth_mm
+  const Camera* camera = nullptr;
+  bool is_distorted = false;  // as recorded (keyframes keep it so), not undistorted
+};
+
+enum class PlaceVerdict : std::uint8_t {
+  kUnobserved,     // out of view, hidden, too far, without depth, or neither clearly
+  kStanding,       // a surface is where it is expected
+  kLookedThrough,  // one sees what is behind it
+};
+
+// What became of the samples of a surface.
+struct ExpectedView {
+  int num_samples = 0;
+  int num_standing = 0;
+  int num_through = 0;
+  int num_hidden = 0;   // behind something nearer
+  int num_unclear = 0;  // beside an edge, or no depth
+  int num_outside = 0;  // of the picture, or too far
+  PlaceVerdict verdict = PlaceVerdict::kUnobserved;
+
+  int num_visible() const { return num_standing + num_through; }
+  double through_share() const {
+    return num_visible() == 0 ? 0.0 : static_cast<double>(num_through) / num_visible();
+  }
+};
+
+// samples: in the frame that T_camera_samples takes to the camera's. pose_sigma_m widens the test.
+ExpectedView LookAtPlace(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
+                         const DepthSampler& depth, double pose_sigma_m,
+                         const ExpectedViewOptions& options);
+
+}  // namespace cslam

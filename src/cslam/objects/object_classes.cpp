@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/objects/object_classes.h"
+
+#include "cslam/semantics/coco.h"
+#include "cslam/util/check.h"
+#include "cslam/util/options.h"
+
+#include <sstream>
+#include <vector>
+
+namespace cslam {
+namespace {
+
+constexpr std::size_t kMaxGroups = 32;
+
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, separator);) {
+    if (!part.empty()) parts.push_back(part);
+  }
+  return parts;
+}
+
+int ClassCalled(const std::string& name, const char* option) {
+  const auto id = FindCocoClass(name);
+  if (!id) throw Error("classes.{}: '{}' is no COCO class", option, name);
+  return *id;
+}
+
+}  // namespace
+
+void Describe(OptionList& list, ObjectClassOptions& o) {
+  list.Add("distances", o.distances,
+           "How far two sightings of one thing may lie apart, in m: class=distance, with blanks "
+           "between.");
+  list.Add("default_distance", o.default_distance_m, {0.01, 10.0}, "m",
+           "The same for all other classes.");
+  list.Add("alike", o.alike, "Classes that detectors take for one another: chair+couch ...");
+  list.Add("left_out", o.left_out, "Classes that never become objects of the map.");
+}
+
+ObjectClasses::ObjectClasses(const ObjectClassOptions& options)
+    : default_distance_m_(options.default_distance_m) {
+  for (const std::string& entry : Split(options.distances, ' ')) {
+    const auto parts = Split(entry, '=');
+    std::istringstream number(parts.size() == 2 ? parts[1] : "");
+    double distance_m = 0.0;
+    if (!(number >> distance_m) || distance_m <= 0.0) {
+      throw Error("classes.distances: '{}' is not class=metres", entry);
+    }
+    distances_m_[ClassCalled(parts[0], "distances")] = distance_m;
+  }
+  const auto groups = Split(options.alike, ' ');
+  if (groups.size() > kMaxGroups) throw Error("classes.alike: more than {} groups", kMaxGroups);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (const std::string& name : Split(groups[i], '+'))
+      groups_[ClassCalled(name, "alike")] |= 1U << i;
+  }
+  for (const std::string& name : Split(options.left_out, ' '))
+    left_out_[ClassCalled(name, "left_out")] = true;
+}
+
+double ObjectClasses::DistanceM(int class_id) const {
+  const auto it = distances_m_.find(class_id);
+  return it == distances_m_.end() ? default_distance_m_ : it->second;
+}
+
+bool ObjectClasses::AreAlike(int a, int b) const {
+  if (a == b) return true;
+  const auto group_a = groups_.find(a);
+  const auto group_b = groups_.find(b);
+  return group_a != groups_.end() && group_b != groups_.end() &&
+         (group_a->second & group_b->second) != 0U;
+}
+
+bool ObjectClasses::IsMapped(int class_id) const {
+  return class_id >= 0 && !left_out_.contains(class_id);
+}
+
+}  // namespace cslam

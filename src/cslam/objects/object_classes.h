@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace cslam {
+
+class OptionList;
+
+// What is known of classes before anything is seen. Text, so that it can be set from outside.
+struct ObjectClassOptions {
+  // From the literature, and like things beside them.
+  std::string distances =
+      "bottle=0.2 wine_glass=0.2 cup=0.2 bowl=0.25 vase=0.3 book=0.3 mouse=0.2 keyboard=0.4 "
+      "cell_phone=0.2 remote=0.2 clock=0.3 tv=0.5 laptop=0.5 teddy_bear=0.5 potted_plant=0.6 "
+      "chair=1.0 couch=1.5 bed=2.0 dining_table=1.5 refrigerator=1.0";
+  double default_distance_m = 0.6;
+  // Names that detectors use for one another.
+  std::string alike =
+      "chair+couch tv+laptop cup+bowl+vase bottle+wine_glass suitcase+backpack+handbag "
+      "potted_plant+vase teddy_bear+dog+cat+bear+sheep";
+  // Living things are no part of a map.
+  std::string left_out = "person bird cat dog horse sheep cow elephant bear zebra giraffe";
+};
+void Describe(OptionList& list, ObjectClassOptions& options);
+
+// The same, ready for use.
+class ObjectClasses {
+ public:
+  // Throws Error for a class or a number that cannot be read.
+  explicit ObjectClasses(const ObjectClassOptions& options);
+
+  // How far the centres of two sightings of one thing may lie apart (m).
+  double DistanceM(int class_id) const;
+
+  // One class, or names for one another.
+  bool AreAlike(int a, int b) const;
+
+  // Whether things that a detector calls so may become objects of the map.
+  bool IsMapped(int class_id) const;
+
+ private:
+  double default_distance_m_;
+  std::map<int, double> distances_m_;
+  std::map<int, unsigned> groups_;  // bit i: member of group i
+  std::map<int, bool> left_out_;
+};
+
+}  // namespace cslam

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/map/map_object.h"
+#include "cslam/objects/depth_region.h"
+#include "cslam/util/id.h"
+#include "cslam/util/stamp.h"
+#include "cslam/vision/box.h"
+
+namespace cslam {
+
+// A resting, named thing as one frame shows it: what the map learns of objects.
+struct ObjectSighting {
+  TrackId track;
+  int class_id = -1;  // COCO
+  double score = 0.0;
+  Box box;             // undistorted px
+  DepthRegion region;  // in the frame's depth view; never empty
+  Stamp first_detected;
+  Stamp detected;  // the newest frame a detector saw it in; carried on since
+  ColourHistogram colours{};
+};
+
+// Of the pixels of bgr (H x W, CV_8UC3, as recorded) that region covers; all 0 without colours.
+// Lens distortion is neglected.
+ColourHistogram ColoursOf(const cv::Mat& bgr, const DepthRegion& region);
+
+// How alike two histograms are: 0 to 1; 0.5 if one is empty.
+double ColourLikeness(const ColourHistogram& a, const ColourHistogram& b);
+
+}  // namespace cslam
