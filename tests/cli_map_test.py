@@ -58,7 +58,8 @@ class MapTest(CliTestCase):
         with contextlib.closing(sqlite3.connect(self.map)) as file:
             self.assertEqual(file.execute("PRAGMA integrity_check").fetchall(), [("ok",)])
             checksums = file.execute("SELECT name, num_rows, crc32 FROM checksums").fetchall()
-            self.assertEqual([c[0] for c in checksums], ["info", "levels", "keyframes", "points"])
+            self.assertEqual([c[0] for c in checksums], ["info", "levels", "keyframes", "points", "objects", "changes",
+                              "loops", "sessions"])
             for name, num_rows, crc in checksums:
                 rows = file.execute(f"SELECT * FROM {name} ORDER BY id").fetchall()
                 self.assertEqual(len(rows), num_rows)
@@ -81,6 +82,19 @@ class MapTest(CliTestCase):
         poses = [line for line in lines if not line.startswith("#")]
         self.assertEqual(len(poses), 5)
         self.assertTrue(all(len(pose.split()) == 8 for pose in poses))
+
+    def test_exports_a_grid_for_navigation(self):
+        result = run("map", "export", self.map, "--grid", self.folder / "a.yaml", "--map-id", "0",
+                     "--set", "grid.resolution=0.2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("resolution: 0.2\n", (self.folder / "a.yaml").read_text(encoding="utf-8"))
+        magic, size, top, pixels = (self.folder / "a.pgm").read_bytes().split(b"\n", 3)
+        width, height = map(int, size.split())
+        self.assertEqual((magic, top, len(pixels)), (b"P5", b"255", width * height))
+        self.assertLessEqual(set(pixels), {0, 205, 254})
+        export = ["map", "export", self.map]
+        self.assert_one_line_error(run(*export, "--grid", self.folder / "a.pgm"), 2, ".yaml")
+        self.assert_one_line_error(run(*export), 2, "--out", "--grid")
 
     def test_exports_json(self):
         data = json.loads(self.export("a.json"))

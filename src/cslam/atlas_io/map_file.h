@@ -12,7 +12,7 @@
 
 namespace cslam {
 
-inline constexpr int kMapFormatVersion = 1;
+inline constexpr int kMapFormatVersion = 2;
 
 // What a map file says about the map as a whole.
 struct MapFileInfo {
@@ -20,6 +20,7 @@ struct MapFileInfo {
   std::string created;  // date and time, ISO 8601, UTC
   CameraConfig camera;  // all but its source is stored
   std::vector<double> level_scales;
+  std::vector<std::string> sessions;  // names of the map's sessions, as far as they have one
 };
 
 struct SavedMap {
@@ -32,15 +33,12 @@ struct SavedMap {
 // the new one is complete. Throws Error if it cannot be written. One call per path at a time.
 void SaveMap(const std::filesystem::path& path, const MapView& map, const MapFileInfo& info);
 
-// Throws Error, one line, for a file that is missing, foreign, from a newer version, cut off or
+// Throws Error, one line, for a file that is missing, foreign, from another version, cut off or
 // damaged. What it returns equals what was saved, and its invariants hold.
 SavedMap LoadMap(const std::filesystem::path& path);
 
-// The first id above those of all maps here; one that was merged into another leaves no trace.
-// Keyframe and point ids go on at num_keyframe_ids() and num_point_ids().
-MapId NextMapId(const MapView& map);
-
-// Throws Error unless the map was made with this camera: points of view and scales would not fit.
+// Throws Error, saying what differs, unless the map was made with this camera: points of view and
+// scales would not fit.
 void RequireSameCamera(const std::filesystem::path& path, const MapFileInfo& info,
                        const Camera& camera);
 

@@ -80,6 +80,7 @@ TEST(MapFile, GivesBackTheInfoItWasSavedWith) {
   EXPECT_EQ(info.camera.name, expected.camera.name);
   EXPECT_EQ(info.camera.depth_units_per_m, expected.camera.depth_units_per_m);
   EXPECT_EQ(info.level_scales, expected.level_scales);
+  EXPECT_EQ(info.sessions, expected.sessions);
 }
 
 TEST(MapFile, IsTheSameByteForByteWhenLoadedAndSavedAgain) {
@@ -133,9 +134,12 @@ TEST(MapFile, SaysWhatAForeignFileIsNot) {
 TEST(MapFile, NamesTheVersionItDoesNotKnow) {
   const TestFolder folder;
   std::string newer = TestFolder::Read(SaveAtlas(folder));
-  newer[63] = 2;
+  newer[63] = 3;
   EXPECT_THAT(LoadError(folder.Write("newer.map", newer)),
-              AllOf(HasSubstr("map format 2"), HasSubstr("up to 1"), HasSubstr("newer.map")));
+              AllOf(HasSubstr("map format 3"), HasSubstr("up to 2"), HasSubstr("newer.map")));
+  newer[63] = 1;
+  EXPECT_THAT(LoadError(folder.Write("older.map", newer)),
+              AllOf(HasSubstr("map format 1"), HasSubstr("make it anew"), HasSubstr("older.map")));
 }
 
 TEST(MapFile, IsRefusedWhereverItIsCutOff) {
@@ -230,9 +234,9 @@ TEST(MapFile, SaysThatAFolderIsMissing) {
               AllOf(HasSubstr("cannot create"), HasSubstr(file.string())));
 }
 
-TEST(NextMapId, ComesAfterAllMaps) {
-  EXPECT_EQ(NextMapId(Map(test::kLevelScales)), MapId(0));
-  EXPECT_EQ(NextMapId(test::MakeAtlas()), MapId(4));
+TEST(MapView, NextMapIdComesAfterAllMaps) {
+  EXPECT_EQ(Map(test::kLevelScales).NextMapId(), MapId(0));
+  EXPECT_EQ(test::MakeAtlas().NextMapId(), MapId(4));
 }
 
 TEST(MapFile, IsRefusedWithAnotherCamera) {
@@ -241,7 +245,7 @@ TEST(MapFile, IsRefusedWithAnotherCamera) {
   RequireSameCamera("a.map", info, camera);
   camera.fx += 1.0;
   EXPECT_THAT(MessageOf([&] { RequireSameCamera("a.map", info, camera); }),
-              AllOf(HasSubstr("another camera"), HasSubstr("fx 518.3")));
+              AllOf(HasSubstr("another camera"), HasSubstr(": fx 518.3 instead of 517.3;")));
 }
 
 // A child that saves the map again and again until it is killed.

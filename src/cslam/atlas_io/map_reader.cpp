@@ -4,6 +4,8 @@
 #include "cslam/atlas_io/keyframe_blobs.h"
 #include "cslam/atlas_io/map_file.h"
 #include "cslam/atlas_io/map_schema.h"
+#include "cslam/atlas_io/object_tables.h"
+#include "cslam/atlas_io/row_values.h"
 #include "cslam/atlas_io/sqlite_file.h"
 #include "cslam/util/check.h"
 
@@ -63,6 +65,12 @@ void CheckHeader(const fs::path& path) {
     throw Error("'{}' has map format {}, this program knows formats up to {}; use a newer one",
                 path.string(), header.user_version(), kMapFormatVersion);
   }
+  if (header.user_version() < std::uint32_t{kMapFormatVersion}) {
+    throw Error(
+        "'{}' has map format {}, this program knows format {} only; make it anew with "
+        "'run --save-map'",
+        path.string(), header.user_version(), kMapFormatVersion);
+  }
   const std::uintmax_t expected = std::uintmax_t{header.page_bytes()} * header.num_pages();
   if (size != expected) {
     throw Error("'{}' is damaged: it has {} bytes instead of {}; take an older copy", path.string(),
@@ -79,57 +87,6 @@ void CheckSchema(const SqliteFile& file) {
     }
   }
   if (row.NextRow()) throw Error("it has more tables than a map");
-}
-
-template <typename AnyId>
-AnyId ReadId(TableReader& row) {
-  if (row.IsNull()) {
-    row.SkipNull();
-    return AnyId();
-  }
-  const std::int64_t value = row.Int();
-  if (value < 0 || value >= std::numeric_limits<std::uint32_t>::max()) {
-    throw Error("an id is {}", value);
-  }
-  return AnyId(static_cast<std::uint32_t>(value));
-}
-
-int ReadInt(TableReader& row, int min, int max) {
-  const std::int64_t value = row.Int();
-  if (value < min || value > max) throw Error("{} is not in [{}, {}]", value, min, max);
-  return static_cast<int>(value);
-}
-
-// Ids count from 0, so this also ends a walk in circles through a damaged file.
-std::uint32_t ReadRowId(TableReader& row) {
-  const std::int64_t id = row.Int();
-  if (id != row.num_rows() - 1 || id >= std::numeric_limits<std::uint32_t>::max()) {
-    throw Error("row {} has id {}", row.num_rows() - 1, id);
-  }
-  return static_cast<std::uint32_t>(id);
-}
-
-void SkipNulls(TableReader& row, int count) {
-  for (int i = 0; i < count; ++i)
-    row.SkipNull();
-}
-
-Eigen::Vector3d ReadVector(TableReader& row) {
-  Eigen::Vector3d v;
-  for (double& value : v)
-    value = row.Double();
-  return v;
-}
-
-Se3 ReadPose(TableReader& row) {
-  constexpr double kMaxLengthError = 1e-6;  // of a unit quaternion after many products
-  Se3 pose;
-  pose.translation = ReadVector(row);
-  for (double& value : pose.rotation.coeffs())
-    value = row.Double();
-  const bool is_unit = std::abs(pose.rotation.norm() - 1.0) < kMaxLengthError;
-  if (!is_unit || !pose.IsFinite()) throw Error("a pose is none");
-  return pose;
 }
 
 MapFileInfo ReadInfo(TableReader& row) {
@@ -244,7 +201,7 @@ MapPoint ReadPoint(TableReader& row) {
   point.state = static_cast<PointState>(ReadInt(row, 0, static_cast<int>(PointState::kErased)));
   point.replaced_by = ReadId<PointId>(row);
   if (!point.IsActive()) {
-    constexpr int kNumActiveColumns = 9;
+    constexpr int kNumActiveColumns = 10;
     SkipNulls(row, kNumActiveColumns);
     return point;
   }
@@ -255,6 +212,7 @@ MapPoint ReadPoint(TableReader& row) {
   point.times_expected = ReadInt(row, 0, kMaxInt);
   point.times_found = ReadInt(row, 0, kMaxInt);
   ReadAppearance(row.Blob(), point);
+  point.object = ReadId<ObjectId>(row);
   return point;
 }
 
@@ -263,6 +221,40 @@ std::vector<MapPoint> ReadPoints(TableReader& row) {
   while (row.NextRow())
     points.push_back(ReadPoint(row));
   return points;
+}
+
+std::vector<LoopEdge> ReadLoops(TableReader& row) {
+  std::vector<LoopEdge> loops;
+  while (row.NextRow()) {
+    ReadRowId(row);
+    LoopEdge loop;
+    loop.match = ReadId<KeyframeId>(row);
+    loop.query = ReadId<KeyframeId>(row);
+    loop.T_match_query = ReadPose(row);
+    loops.push_back(loop);
+  }
+  return loops;
+}
+
+std::vector<KeyframeId> ReadSessions(TableReader& row, std::vector<std::string>& names) {
+  std::vector<KeyframeId> sessions;
+  while (row.NextRow()) {
+    ReadRowId(row);
+    sessions.push_back(ReadId<KeyframeId>(row));
+    names.emplace_back(row.Text());
+  }
+  return sessions;
+}
+
+// What is held back follows from the objects.
+void HoldBackPoints(MapContents& contents) {
+  for (MapPoint& point : contents.points) {
+    if (!point.object.valid()) continue;
+    if (point.object.index() >= contents.objects.size()) {
+      throw Error("point {} is part of an object that never was", point.id.value());
+    }
+    point.is_held_back = !contents.objects[point.object.index()].is_active;
+  }
 }
 
 void CheckChecksum(TableReader& checksums, const MapTable& table, const TableReader& read) {
@@ -292,6 +284,12 @@ SavedMap ReadDatabase(const fs::path& path) {
   contents.keyframes =
       read(kKeyframesTable, [&](TableReader& row) { return ReadKeyframes(row, bounds); });
   contents.points = read(kPointsTable, ReadPoints);
+  contents.objects = read(kObjectsTable, ReadObjects);
+  contents.changes = read(kChangesTable, ReadChanges);
+  contents.loops = read(kLoopsTable, ReadLoops);
+  contents.sessions =
+      read(kSessionsTable, [&](TableReader& row) { return ReadSessions(row, info.sessions); });
+  HoldBackPoints(contents);
   if (checksums.NextRow()) throw Error("it has more checksums than tables");
   return {.info = std::move(info), .map = Map(std::move(contents))};
 }
@@ -307,24 +305,30 @@ SavedMap LoadMap(const fs::path& path) {
   }
 }
 
-MapId NextMapId(const MapView& map) {
-  std::uint32_t next = 0;
-  for (std::size_t i = 0; i < map.num_keyframe_ids(); ++i) {
-    const MapId id = map.KeyframeSlot(i).map;
-    if (id.valid()) next = std::max(next, id.value() + 1);
-  }
-  return MapId(next);
-}
-
 void RequireSameCamera(const fs::path& path, const MapFileInfo& info, const Camera& camera) {
   const Camera& saved = info.camera.camera;
-  if (saved == camera) return;
-  const auto text = [](const Camera& c) {
-    return fmt::format("{} x {} px, fx {}, fy {}, cx {}, cy {}, k1 {}", c.width, c.height, c.fx,
-                       c.fy, c.cx, c.cy, c.k1);
+  std::string differences;
+  const auto compare = [&](const char* name, auto in_map, auto here) {
+    if (in_map == here) return;
+    differences +=
+        fmt::format("{}{} {} instead of {}", differences.empty() ? "" : ", ", name, here, in_map);
   };
-  throw Error("the map '{}' was made with another camera: {} ({}) instead of {}", path.string(),
-              info.camera.name.empty() ? "unnamed" : info.camera.name, text(saved), text(camera));
+  compare("width", saved.width, camera.width);
+  compare("height", saved.height, camera.height);
+  compare("fx", saved.fx, camera.fx);
+  compare("fy", saved.fy, camera.fy);
+  compare("cx", saved.cx, camera.cx);
+  compare("cy", saved.cy, camera.cy);
+  compare("k1", saved.k1, camera.k1);
+  compare("k2", saved.k2, camera.k2);
+  compare("p1", saved.p1, camera.p1);
+  compare("p2", saved.p2, camera.p2);
+  compare("k3", saved.k3, camera.k3);
+  if (differences.empty()) return;
+  throw Error(
+      "the map '{}' was made with another camera ({}): {}; use the camera of the map, or "
+      "make a new one",
+      path.string(), info.camera.name.empty() ? "unnamed" : info.camera.name, differences);
 }
 
 }  // namespace cslam

@@ -38,13 +38,37 @@ inline constexpr MapTable kPointsTable{
     "points",
     "id INTEGER PRIMARY KEY, state INTEGER, replaced_by INTEGER, map INTEGER, x, y, z,"
     " reference INTEGER, created_by INTEGER, times_expected INTEGER, times_found INTEGER,"
-    " appearance BLOB",
-    12};
+    " appearance BLOB, object INTEGER",
+    13};
+inline constexpr MapTable kObjectsTable{
+    "objects",
+    "id INTEGER PRIMARY KEY, state INTEGER, merged_into INTEGER, map INTEGER, class_id INTEGER,"
+    " votes BLOB, log_odds, is_active INTEGER, reference INTEGER, x, y, z,"
+    " box_x, box_y, box_z, box_size_x, box_size_y, box_size_z, box_qx, box_qy, box_qz, box_qw,"
+    " colours BLOB, voxel_m, voxels BLOB, samples BLOB,"
+    " first_box_x_min, first_box_y_min, first_box_x_max, first_box_y_max,"
+    " box_x_min, box_y_min, box_x_max, box_y_max, track INTEGER,"
+    " first_keyframe INTEGER, last_keyframe INTEGER,"
+    " first_seen_ns INTEGER, last_seen_ns INTEGER, absent_since_ns INTEGER,"
+    " first_session INTEGER, last_session INTEGER, num_sightings INTEGER, history BLOB",
+    44};
+inline constexpr MapTable kChangesTable{
+    "changes",
+    "id INTEGER PRIMARY KEY, kind INTEGER, object INTEGER, new_object INTEGER,"
+    " last_seen_there_ns INTEGER, first_seen_absent_ns INTEGER, reported_ns INTEGER, confidence,"
+    " num_absent_views INTEGER, num_seen_views INTEGER, is_between_sessions INTEGER",
+    11};
+inline constexpr MapTable kLoopsTable{
+    "loops", "id INTEGER PRIMARY KEY, match INTEGER, query INTEGER, tx, ty, tz, qx, qy, qz, qw",
+    10};
+inline constexpr MapTable kSessionsTable{
+    "sessions", "id INTEGER PRIMARY KEY, first_keyframe INTEGER, name TEXT", 3};
 inline constexpr MapTable kChecksumsTable{
     "checksums", "id INTEGER PRIMARY KEY, name TEXT, num_rows INTEGER, crc32 INTEGER", 4};
 
-inline constexpr std::array kMapTables = {kInfoTable, kLevelsTable, kKeyframesTable, kPointsTable,
-                                          kChecksumsTable};
+inline constexpr std::array kMapTables = {kInfoTable,   kLevelsTable,   kKeyframesTable,
+                                          kPointsTable, kObjectsTable,  kChangesTable,
+                                          kLoopsTable,  kSessionsTable, kChecksumsTable};
 
 // Normal, distances and angle as floats, then the descriptor.
 inline constexpr std::size_t kAppearanceBytes = 6 * sizeof(float) + 32;

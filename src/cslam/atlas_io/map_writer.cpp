@@ -4,6 +4,8 @@
 #include "cslam/atlas_io/keyframe_blobs.h"
 #include "cslam/atlas_io/map_file.h"
 #include "cslam/atlas_io/map_schema.h"
+#include "cslam/atlas_io/object_tables.h"
+#include "cslam/atlas_io/row_values.h"
 #include "cslam/atlas_io/sqlite_file.h"
 #include "cslam/util/atomic_file.h"
 #include "cslam/util/check.h"
@@ -19,31 +21,6 @@ namespace cslam {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <typename AnyId>
-void WriteId(TableWriter& row, AnyId id) {
-  if (id.valid()) {
-    row.Int(id.value());
-  } else {
-    row.Null();
-  }
-}
-
-void WriteNulls(TableWriter& row, int count) {
-  for (int i = 0; i < count; ++i)
-    row.Null();
-}
-
-void WriteVector(TableWriter& row, const Eigen::Vector3d& v) {
-  for (const double value : v)
-    row.Double(value);
-}
-
-void WritePose(TableWriter& row, const Se3& pose) {
-  WriteVector(row, pose.translation);
-  for (const double value : pose.rotation.coeffs())  // x y z w
-    row.Double(value);
-}
 
 void WriteInfo(TableWriter& row, const MapFileInfo& info) {
   const Camera& c = info.camera.camera;
@@ -75,7 +52,7 @@ void WriteAliveKeyframe(TableWriter& row, const Keyframe& keyframe) {
               "keyframe {}", keyframe.id.value());
   row.Null();  // forward_to
   WriteId(row, data.frame);
-  row.Int(data.stamp.ns);
+  WriteStamp(row, data.stamp);
   WritePose(row, keyframe.T_world_camera);
   const std::string keypoints = PackKeypoints(data.features.keypoints);
   const std::string descriptors = PackDescriptors(data.features.descriptors);
@@ -140,7 +117,7 @@ void WritePoint(TableWriter& row, const MapPoint& point) {
   row.Int(static_cast<std::int64_t>(point.state));
   WriteId(row, point.state == PointState::kFused ? point.replaced_by : PointId());
   if (!point.IsActive()) {
-    constexpr int kNumActiveColumns = 9;
+    constexpr int kNumActiveColumns = 10;
     WriteNulls(row, kNumActiveColumns);
     row.EndRow();
     return;
@@ -153,7 +130,27 @@ void WritePoint(TableWriter& row, const MapPoint& point) {
   row.Int(point.times_found);
   const std::string appearance = PackAppearance(point);
   row.Blob(appearance);
+  WriteId(row, point.object);
   row.EndRow();
+}
+
+void WriteLoops(TableWriter& row, const std::vector<LoopEdge>& loops) {
+  for (const LoopEdge& loop : loops) {
+    row.Int(row.num_rows());
+    WriteId(row, loop.match);
+    WriteId(row, loop.query);
+    WritePose(row, loop.T_match_query);
+    row.EndRow();
+  }
+}
+
+void WriteSessions(TableWriter& row, const MapView& map, const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < map.sessions().size(); ++i) {
+    row.Int(row.num_rows());
+    WriteId(row, map.sessions()[i]);
+    row.Text(i < names.size() ? names[i] : "");
+    row.EndRow();
+  }
 }
 
 void WriteChecksum(TableWriter& checksums, const MapTable& table, const TableWriter& writer) {
@@ -178,6 +175,10 @@ void WriteTables(const SqliteFile& file, const MapView& map, const MapFileInfo& 
     for (std::size_t i = 0; i < map.num_point_ids(); ++i)
       WritePoint(row, map.PointSlot(i));
   });
+  write(kObjectsTable, [&](TableWriter& row) { WriteObjects(row, map); });
+  write(kChangesTable, [&](TableWriter& row) { WriteChanges(row, map); });
+  write(kLoopsTable, [&](TableWriter& row) { WriteLoops(row, map.loops()); });
+  write(kSessionsTable, [&](TableWriter& row) { WriteSessions(row, map, info.sessions); });
 }
 
 void WriteDatabase(const fs::path& path, const MapView& map, const MapFileInfo& info) {

@@ -152,6 +152,12 @@ void TableWriter::Blob(std::string_view bytes) {
   checksum_.AddBytes(bytes);
 }
 
+void TableWriter::BlobCopy(std::string_view bytes) {
+  const char* const data = bytes.empty() ? "" : bytes.data();
+  Check(sqlite3_bind_blob64(statement_.get(), ++column_, data, bytes.size(), SQLITE_TRANSIENT));
+  checksum_.AddBytes(bytes);
+}
+
 void TableWriter::Null() {
   Check(sqlite3_bind_null(statement_.get(), ++column_));
   checksum_.AddNull();

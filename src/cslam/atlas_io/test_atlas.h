@@ -22,6 +22,7 @@ inline MapFileInfo MakeMapFileInfo() {
   info.camera.camera = {.fx = 517.3, .fy = 516.5, .cx = 318.6, .cy = 255.3, .k1 = 0.26};
   info.camera.name = "test";
   info.level_scales = kLevelScales;
+  info.sessions = {"morning", "noon"};
   return info;
 }
 
@@ -64,7 +65,55 @@ inline void AddRowOfKeyframes(Map& map, MapId map_id, int num_keyframes, int num
   }
 }
 
-// Two maps with culled keyframes, ids that never were, fused and erased points.
+inline MapObject MakeObject(KeyframeId reference, MapId map) {
+  MapObject object;
+  object.map = map;
+  object.state = ObjectState::kPresent;
+  object.class_id = 77;
+  object.votes = {{77, 2.5F}, {-1, 0.25F}};
+  object.log_odds = 1.75;
+  object.reference = reference;
+  auto surface = std::make_shared<ObjectSurface>();
+  surface->voxels = {{{-3, 0, 2}, {0.1F, -0.2F, 1.5F}, 4, 1},
+                     {{1, 2, 3}, {0.2F, 0.0F, 1.6F}, 9, 0}};
+  surface->samples = {{0.15F, -0.1F, 1.55F}};
+  object.surface = std::move(surface);
+  object.centroid = {0.15, -0.1, 1.55};
+  object.box = {{0.1, 0.2, 1.5}, {0.3, 0.4, 0.5}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5)};
+  object.colours[3] = 1.0F;
+  object.first_box = {1.5, 2.0, 30.0, 40.0};
+  object.current_box = {2.5, 3.0, 31.0, 41.0};
+  object.track = TrackId(4);
+  object.first_keyframe = KeyframeId(0);
+  object.last_keyframe = reference;
+  object.first_seen = Stamp{1'000};
+  object.last_seen = Stamp{2'000};
+  object.absent_since = Stamp{3'000};
+  object.num_sightings = 6;
+  object.history = {{Stamp{1'000}, 0.5F, BeliefCause::kCreated},
+                    {Stamp{2'000}, 0.8F, BeliefCause::kSeen}};
+  return object;
+}
+
+// One that is held back with a point of its own, one that was merged into it, a change of it.
+inline void AddObjects(Map& map) {
+  const ObjectId kept = map.AddObject(MakeObject(KeyframeId(2), MapId(0)));
+  const ObjectId dropped = map.AddObject(MakeObject(KeyframeId(1), MapId(0)));
+  map.AssignPoint(PointId(5), kept);
+  map.MergeObjects(kept, dropped);
+  MapChange change;
+  change.kind = MapChangeKind::kRemoved;
+  change.object = kept;
+  change.last_seen_there = Stamp{2'000};
+  change.reported = Stamp{4'000};
+  change.confidence = 0.75;
+  change.num_absent_views = 3;
+  change.is_between_sessions = true;
+  map.SetChanges({change});
+}
+
+// Two maps with culled keyframes, ids that never were, fused and erased points, a loop, objects and
+// a second session that has no keyframe yet.
 inline Map MakeAtlas() {
   Map map(kLevelScales);
   AddRowOfKeyframes(map, MapId(0), 6, 24);
@@ -77,6 +126,9 @@ inline Map MakeAtlas() {
   map.ErasePoint(PointId(4));
   map.AddSightings(PointId(2), 12, 9);
   map.SetPose(KeyframeId(2), Se3(ExpSo3({0.1, -0.2, 0.3}), {0.2, -0.0, 1e-17}));
+  map.AddLoop({KeyframeId(0), KeyframeId(5), Se3(ExpSo3({0.1, 0.2, 0.0}), {0.4, 0.0, 0.1})});
+  AddObjects(map);
+  map.StartSession();
   return map;
 }
 
@@ -130,7 +182,48 @@ inline bool AreEqual(const MapPoint& a, const MapPoint& b) {
          a.min_distance_m == b.min_distance_m && a.max_distance_m == b.max_distance_m &&
          a.angle_rad == b.angle_rad && a.descriptor == b.descriptor && a.reference == b.reference &&
          a.created_by == b.created_by && a.observations == b.observations &&
-         a.times_expected == b.times_expected && a.times_found == b.times_found;
+         a.times_expected == b.times_expected && a.times_found == b.times_found &&
+         a.object == b.object && a.is_held_back == b.is_held_back;
+}
+
+inline bool AreEqual(const ObjectSurface* a, const ObjectSurface* b) {
+  if (a == nullptr || b == nullptr) return a == b;
+  return a->voxel_m == b->voxel_m && a->samples == b->samples &&
+         std::ranges::equal(a->voxels, b->voxels, [](const auto& x, const auto& y) {
+           return x.cell == y.cell && x.p == y.p && x.num_inside == y.num_inside &&
+                  x.num_outside == y.num_outside;
+         });
+}
+
+inline bool AreEqual(const MapObject& a, const MapObject& b) {
+  const bool has_equal_look =
+      AreEqual(a.surface.get(), b.surface.get()) && a.centroid == b.centroid &&
+      a.box.center == b.box.center && a.box.size_m == b.box.size_m &&
+      a.box.rotation.coeffs() == b.box.rotation.coeffs() && a.colours == b.colours &&
+      a.class_id == b.class_id && std::ranges::equal(a.votes, b.votes, [](auto x, auto y) {
+        return x.class_id == y.class_id && x.weight == y.weight;
+      });
+  const bool has_equal_sightings =
+      a.first_box == b.first_box && a.current_box == b.current_box && a.track == b.track &&
+      a.first_keyframe == b.first_keyframe && a.last_keyframe == b.last_keyframe &&
+      a.first_seen == b.first_seen && a.last_seen == b.last_seen &&
+      a.absent_since == b.absent_since && a.first_session == b.first_session &&
+      a.last_session == b.last_session && a.num_sightings == b.num_sightings;
+  return a.id == b.id && a.map == b.map && a.state == b.state && a.merged_into == b.merged_into &&
+         a.log_odds == b.log_odds && a.is_active == b.is_active && a.reference == b.reference &&
+         a.history == b.history && has_equal_look && has_equal_sightings;
+}
+
+inline bool AreEqual(const MapChange& a, const MapChange& b) {
+  return a.kind == b.kind && a.object == b.object && a.new_object == b.new_object &&
+         a.last_seen_there == b.last_seen_there && a.first_seen_absent == b.first_seen_absent &&
+         a.reported == b.reported && a.confidence == b.confidence &&
+         a.num_absent_views == b.num_absent_views && a.num_seen_views == b.num_seen_views &&
+         a.is_between_sessions == b.is_between_sessions;
+}
+
+inline bool AreEqual(const LoopEdge& a, const LoopEdge& b) {
+  return a.match == b.match && a.query == b.query && AreEqual(a.T_match_query, b.T_match_query);
 }
 
 // Empty if the maps are equal, bit by bit, in everything that can be asked of them.
@@ -145,6 +238,14 @@ inline std::string FindDifference(const MapView& a, const MapView& b) {
   for (std::size_t i = 0; i < a.num_point_ids(); ++i) {
     if (!AreEqual(a.PointSlot(i), b.PointSlot(i))) return "point " + std::to_string(i);
   }
+  if (a.num_object_ids() != b.num_object_ids()) return "number of object ids";
+  for (std::size_t i = 0; i < a.num_object_ids(); ++i) {
+    if (!AreEqual(a.ObjectSlot(i), b.ObjectSlot(i))) return "object " + std::to_string(i);
+  }
+  const auto are_equal = [](const auto& x, const auto& y) { return AreEqual(x, y); };
+  if (!std::ranges::equal(a.changes(), b.changes(), are_equal)) return "changes";
+  if (!std::ranges::equal(a.loops(), b.loops(), are_equal)) return "loops";
+  if (a.sessions() != b.sessions()) return "sessions";
   return {};
 }
 
