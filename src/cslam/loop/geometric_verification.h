@@ -24,7 +24,7 @@ struct VerificationOptions {
   double match_ratio = 0.85;
   int min_matches = 15;
   int min_ransac_inliers = 10;
-  PoseRansacOptions ransac;
+  PoseRansacOptions ransac{};
   double first_radius_px = 12.0;
   double second_radius_px = 6.0;
   int guided_distance = 80;

@@ -6,7 +6,7 @@
 #include "cslam/loop/essential_graph.h"
 #include "cslam/loop/loop_fusion.h"
 #include "cslam/loop/loop_sides.h"
-#include "cslam/loop/relocaliser.h"
+#include "cslam/loop/place_candidates.h"
 #include "cslam/util/check.h"
 
 #include <fmt/core.h>
@@ -30,23 +30,6 @@ LoopRecord StartRecord(const Keyframe& query, const Keyframe& match, double scor
   record.match_map = match.map;
   record.evidence.score = score;
   return record;
-}
-
-// Why what was seen does not suffice; empty if it does.
-std::string WhyTooWeak(const PlaceVerification& seen, const LoopOptions& options) {
-  if (!seen.IsAccepted()) return seen.reason;
-  if (seen.num_ransac_inliers < options.min_ransac_inliers) {
-    return fmt::format("{} matches agree without guidance < {}", seen.num_ransac_inliers,
-                       options.min_ransac_inliers);
-  }
-  if (seen.num_inliers < options.min_inliers) {
-    return fmt::format("{} inliers < {}", seen.num_inliers, options.min_inliers);
-  }
-  if (seen.spread() < options.min_spread) {
-    return fmt::format("inliers in {:.0f} % of the image < {:.0f} %", 100.0 * seen.spread(),
-                       100.0 * options.min_spread);
-  }
-  return {};
 }
 
 // Why a loop within one map moves its newer end too far; empty if it does not.
@@ -128,12 +111,7 @@ LoopOutcome LoopCloser::Process(KeyframeId keyframe, const MapView& map, const P
     return map.FindKeyframe(id) == nullptr || is_near[id.index()] != 0;
   };
   const auto descriptors = SelectDescriptors(query->data->features, PlaceKeypoints(map, *query));
-  auto candidates = RankPlaces(
-      map, index.Query(descriptors, is_excluded, static_cast<std::size_t>(options_.max_results)));
-  std::erase_if(candidates, [&](const PlaceCandidate& c) { return c.votes < options_.min_votes; });
-  if (candidates.size() > static_cast<std::size_t>(options_.max_candidates)) {
-    candidates.resize(static_cast<std::size_t>(options_.max_candidates));
-  }
+  const auto candidates = FindPlaces(map, index, descriptors, is_excluded, options_.candidates);
   const PointFilter may_use = [&](const MapPoint& p) { return !IsSeenFromNear(p, is_near); };
   for (const PlaceCandidate& candidate : candidates)
     outcome.records.push_back(Examine(*query, candidate, map, may_use));
@@ -167,8 +145,10 @@ LoopRecord LoopCloser::Examine(const Keyframe& query, const PlaceCandidate& cand
   record.evidence.num_inliers = seen.num_inliers;
   record.evidence.inlier_spread = seen.spread();
   record.evidence.median_error_px = seen.median_error_px;
-  record.reason = WhyTooWeak(seen, options_);
-  if (!record.reason.empty()) return record;
+  if (!seen.IsAccepted()) {
+    record.reason = seen.reason;
+    return record;
+  }
   record.T_match_query = match.T_world_camera.Inverse() * seen.T_world_camera;
   record.evidence.num_confirmations = 1;
   if (match.map == query.map) {
@@ -211,7 +191,7 @@ int LoopCloser::CountConfirmingNeighbours(const LoopEdge& loop, const MapView& m
     const Keyframe& query = *map.FindKeyframe(neighbour.id);
     const PlaceVerification seen =
         VerifyPlace(query.data->features, map, loop.match, sensor_, options_.verification, may_use);
-    if (!WhyTooWeak(seen, options_).empty()) continue;
+    if (!seen.IsAccepted()) continue;
     const Se3 T_world_match = map.FindKeyframe(loop.match)->T_world_camera;
     const LoopEdge found{loop.match, neighbour.id, T_world_match.Inverse() * seen.T_world_camera};
     if (Agree(loop, found, map)) ++count;

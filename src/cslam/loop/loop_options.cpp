@@ -44,12 +44,7 @@ void Describe(OptionList& list, LoopFusionOptions& o) {
 namespace {
 
 void DescribeCandidates(OptionList& list, LoopOptions& o) {
-  list.Add("max_results", o.max_results, {1, 1000}, "keyframes",
-           "Keyframes asked of the place index.");
-  list.Add("max_candidates", o.max_candidates, {1, 100}, "keyframes",
-           "Of those, the best places that are verified.");
-  list.Add("min_votes", o.min_votes, {1, 10'000}, "features",
-           "Candidates that share fewer features with the keyframe are not verified.");
+  list.Group("candidates", o.candidates);
   list.Add("min_shared_points", o.min_shared_points, {1, 1000}, "points",
            "Points two keyframes share to count as neighbours.");
   list.Add("min_keyframes_apart", o.min_keyframes_apart, {1, 10'000}, "keyframes",
@@ -58,13 +53,6 @@ void DescribeCandidates(OptionList& list, LoopOptions& o) {
 
 void DescribeEvidence(OptionList& list, LoopOptions& o) {
   list.Group("verification", o.verification);
-  list.Add("min_ransac_inliers", o.min_ransac_inliers, {3, 1000}, "matches",
-           "Fewest matches by looks alone that agree on one pose.");
-  list.Add("min_inliers", o.min_inliers, {3, 10'000}, "points",
-           "Fewest map points the verified pose agrees with.");
-  list.Add("min_spread", o.min_spread, {0.0, 1.0}, "",
-           "Smallest share of the cells of a 4 x 4 grid over the image that hold an inlier: one "
-           "thing, moved, fills few.");
   list.Add("confirmations", o.confirmations, {1, 100}, "keyframes",
            "Keyframes that have to find the same place and agree where it is, within one map.");
   list.Add("merge_confirmations", o.merge_confirmations, {1, 100}, "keyframes",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/loop/geometric_verification.h"
+#include "cslam/loop/place_candidates.h"
 #include "cslam/optim/pose_graph.h"
 
 namespace cslam {
@@ -40,15 +41,12 @@ struct LoopFusionOptions {
 void Describe(OptionList& list, LoopFusionOptions& options);
 
 struct LoopOptions {
-  int max_results = 40;
-  int max_candidates = 3;
-  int min_votes = 8;
+  CandidateOptions candidates{.max_candidates = 3};
   int min_shared_points = 15;
   int min_keyframes_apart = 10;
-  VerificationOptions verification;
-  int min_ransac_inliers = 15;
-  int min_inliers = 40;
-  double min_spread = 0.375;
+  // Stricter than for finding a frame: a wrong pose is gone with the next frame, a wrong loop
+  // stays.
+  VerificationOptions verification{.min_ransac_inliers = 15, .min_inliers = 40, .min_cells = 6};
   int confirmations = 2;
   int merge_confirmations = 3;
   int confirming_neighbours = 5;

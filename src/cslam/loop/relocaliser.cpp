@@ -11,8 +11,7 @@
 namespace cslam {
 namespace {
 
-constexpr int kMinSharedPoints = 15;
-constexpr std::size_t kMaxNeighbours = 10;
+constexpr int kMinSharedPoints = 15;  // with fewer, keyframes hardly see the same
 
 // The keyframe that sees most of the points; the smallest id of equals.
 KeyframeId FindReference(const MapView& map, const std::vector<PointId>& points,
@@ -71,12 +70,7 @@ bool IsFoundAlready(const MapView& map, KeyframeId id,
 }  // namespace
 
 void Describe(OptionList& list, RelocaliserOptions& o) {
-  list.Add("max_results", o.max_results, {1, 1000}, "keyframes",
-           "Keyframes that look like the frame and are ranked by place.");
-  list.Add("max_candidates", o.max_candidates, {1, 100}, "keyframes",
-           "Keyframes verified at most for one frame.");
-  list.Add("min_votes", o.min_votes, {1, 1000}, "features",
-           "Keyframes in which fewer features were recognised are not verified.");
+  list.Group("candidates", o.candidates);
   list.Add("sure_inliers", o.sure_inliers, {10, 10'000}, "points",
            "With so many inliers no further candidate is looked at.");
   list.Add("rival_ratio", o.rival_ratio, {0.0, 1.0}, "",
@@ -89,34 +83,6 @@ void Describe(OptionList& list, RelocaliserOptions& o) {
   list.Group("verification", o.verification);
 }
 
-std::vector<PlaceCandidate> RankPlaces(const MapView& map,
-                                       const std::vector<PlaceCandidate>& candidates) {
-  std::vector<double> score_of(map.num_keyframe_ids(), 0.0);
-  for (const PlaceCandidate& candidate : candidates)
-    score_of[candidate.keyframe.index()] = candidate.score;
-  std::vector<std::pair<double, PlaceCandidate>> ranked;  // by the score of its surroundings
-  for (const PlaceCandidate& candidate : candidates) {
-    double score = candidate.score;
-    for (const auto& n : map.Neighbours(candidate.keyframe, kMinSharedPoints, kMaxNeighbours))
-      score += score_of[n.id.index()];
-    ranked.emplace_back(score, candidate);
-  }
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-
-  std::vector<PlaceCandidate> first, later;
-  std::vector<std::uint8_t> is_covered(map.num_keyframe_ids(), 0);
-  for (const auto& [score, candidate] : ranked) {
-    const KeyframeId id = candidate.keyframe;
-    (is_covered[id.index()] == 0 ? first : later).push_back(candidate);
-    is_covered[id.index()] = 1;
-    for (const auto& n : map.Neighbours(id, kMinSharedPoints, kMaxNeighbours))
-      is_covered[n.id.index()] = 1;
-  }
-  first.insert(first.end(), later.begin(), later.end());
-  return first;
-}
-
 Relocaliser::Relocaliser(PlaceSensor sensor, const RelocaliserOptions& options)
     : sensor_(std::move(sensor)), options_(options) {}
 
@@ -126,13 +92,8 @@ RelocalisationResult Relocaliser::Find(const FrameFeatures& features, const MapV
     const Keyframe* keyframe = map.FindKeyframe(id);
     return keyframe == nullptr || (may_search && !may_search(keyframe->map));
   };
-  const std::vector<int> keypoints = PlaceKeypoints(features);
-  std::vector<PlaceCandidate> places =
-      index.Query(SelectDescriptors(features, keypoints), is_excluded,
-                  static_cast<std::size_t>(options_.max_results));
-  std::erase_if(places, [&](const auto& place) { return place.votes < options_.min_votes; });
-  places = RankPlaces(map, places);
-  places.resize(std::min(places.size(), static_cast<std::size_t>(options_.max_candidates)));
+  const auto places = FindPlaces(map, index, SelectDescriptors(features, PlaceKeypoints(features)),
+                                 is_excluded, options_.candidates);
 
   RelocalisationResult result;
   std::size_t best = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/loop/geometric_verification.h"
+#include "cslam/loop/place_candidates.h"
 #include "cslam/loop/place_index.h"
 #include "cslam/map/map_view.h"
 
@@ -16,9 +17,7 @@ namespace cslam {
 class OptionList;
 
 struct RelocaliserOptions {
-  int max_results = 40;
-  int max_candidates = 5;
-  int min_votes = 8;
+  CandidateOptions candidates;
   int sure_inliers = 150;
   double rival_ratio = 0.7;
   double rival_distance_m = 0.5;
@@ -61,10 +60,5 @@ class Relocaliser {
   PlaceSensor sensor_;
   RelocaliserOptions options_;
 };
-
-// Candidates whose neighbours are candidates, too, first: a place is seen by several keyframes.
-// Of those that share points only the best is listed before the best of other places.
-std::vector<PlaceCandidate> RankPlaces(const MapView& map,
-                                       const std::vector<PlaceCandidate>& candidates);
 
 }  // namespace cslam
