@@ -64,7 +64,7 @@ struct ReportedChange {
   std::optional<Eigen::Vector3d> from = {};  // centroid before, m, world; none for kAdded
   std::optional<Eigen::Vector3d> to = {};    // and after; none for kRemoved
   Stamp last_seen_there = {};                // for kAdded: when the place was last seen without it
-  std::optional<Stamp> first_seen_absent;    // absent if nobody saw the old place empty
+  std::optional<Stamp> first_seen_absent = {};  // absent if nobody saw the old place empty
   Stamp reported = {};
   double confidence = 0.0;  // 0 to 1
   int num_absent_views = 0;

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/dataset/visibility.h"
+#include "cslam/io/truth_files.h"
+#include "cslam/scene_eval/scene_score.h"
+#include "cslam/scene_eval/scene_truth.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+// Which of the true changes a camera could know of, and from when.
+
+namespace cslam {
+
+// Times are seconds since the sequence's start.
+struct KnowableChange {
+  TrueChange change =
+      {};               // of several the camera could not tell apart: the first and the last in one
+  int num_merged = 1;   // how many of changes.json it stands for
+  double left_s = 0.0;  // when the old place was left; without one, when the new one was taken
+  double arrived_s = 0.0;                    // when the new place was taken; without one, as left_s
+  std::optional<Eigen::Vector3d> from = {};  // middles of the boxes
+  std::optional<Eigen::Vector3d> to = {};
+  // First clear views: of the old place afterwards, and of the thing at the new one.
+  std::optional<double> old_view_s = {};
+  std::optional<double> new_view_s = {};
+  // Why nobody could know of it; empty: it counts.
+  std::string why_not = {};
+
+  bool counts() const { return why_not.empty(); }
+  // From when something of it could be known, and from when all of it.
+  double first_view_s() const;
+  double last_view_s() const;
+};
+
+// Changes of the classes asked for (of a replaced thing and what came both) from start_s to end_s,
+// in order of time. Several changes of one thing between which nobody looked become one; if they
+// cancel out, none. One that counts was seen before (an added thing's place without it) and its
+// places are clearly seen afterwards: the old one of a removal, the new one of an addition and of a
+// replacement, both of a move.
+std::vector<KnowableChange> KnowableChanges(const SceneTruth& truth, double start_s, double end_s,
+                                            const SceneEvalOptions& options);
+
+}  // namespace cslam
