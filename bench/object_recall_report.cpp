@@ -129,7 +129,7 @@ class Folder {
     const TrueObject* object = FindObject(objects_, seen.instance);
     if (object == nullptr) return false;
     if (object->is_deformable) return true;
-    const ObjectState state = StateAt(*object, TimeOf(objects_, truth_.frames[frame].stamp));
+    const Placement state = StateAt(*object, TimeOf(objects_, truth_.frames[frame].stamp));
     const Box whole =
         Outline(*object, path_[frame].T_world_camera.Inverse() * state.T_world_object, camera);
     return !whole.empty() && seen.box.area() >= kMinSeenShare * whole.area();

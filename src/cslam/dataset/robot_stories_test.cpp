@@ -219,8 +219,8 @@ TEST_P(RobotStory, StandsThingsOnTheFloorOrOnEachOtherWithoutMixingThem) {
     for (const auto& [a, timeline_a] : world.timelines) {
       for (const auto& [b, timeline_b] : world.timelines) {
         if (a >= b) continue;
-        const ObjectState state_a = StateAt(timeline_a, t);
-        const ObjectState state_b = StateAt(timeline_b, t);
+        const Placement state_a = StateAt(timeline_a, t);
+        const Placement state_b = StateAt(timeline_b, t);
         if (state_a.presence == Presence::kAway || state_b.presence == Presence::kAway) continue;
         const Eigen::Vector3d apart =
             state_a.T_world_object.translation - state_b.T_world_object.translation;

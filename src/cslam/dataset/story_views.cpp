@@ -94,7 +94,7 @@ std::vector<std::size_t> StoryViews::Showing(int instance, std::size_t begin,
   if (object == nullptr) return {};
   const bool is_recorded = IsRecorded(instance);
   for (std::size_t i = begin; i < end; ++i) {
-    const ObjectState state = StateAt(*object, time_s(i));
+    const Placement state = StateAt(*object, time_s(i));
     if (state.presence == Presence::kAway) continue;
     if (is_recorded || MaySee(i, PointsIn(instance, state.T_world_object))) candidates.push_back(i);
   }

@@ -97,7 +97,7 @@ class StoryView {
     Scene moving;
     moving.objects.resize(world_.scene.objects.size());
     for (const auto& [id, timeline] : world_.timelines) {
-      const ObjectState state = StateAt(timeline, time_s);
+      const Placement state = StateAt(timeline, time_s);
       if (state.presence == Presence::kAway) continue;
       SceneObject& object = moving.objects[static_cast<std::size_t>(id)];
       object = world_.scene.objects[static_cast<std::size_t>(id)];
@@ -191,7 +191,7 @@ inline Clearance ClearanceOf(const Story& story, double step_s) {
     for (std::size_t id = 1; id < world.scene.objects.size(); ++id) {
       const int instance = static_cast<int>(id);
       if (world.animations.contains(instance)) continue;
-      const ObjectState state = StateAt(world, instance, t);
+      const Placement state = StateAt(world, instance, t);
       if (state.presence != Presence::kResting) continue;
       const OrientedBox box = boxes.Of(instance, state.T_world_object);
       for (const Eigen::Vector3d& p : people) {

@@ -172,7 +172,7 @@ class TruthChecker {
     for (const auto& [instance, region] : regions) {
       const TrueObject* object = FindObject(*truth_.objects, instance);
       if (object == nullptr || object->is_deformable || IsAtBoundary(*object, time_s)) continue;
-      const ObjectState state = StateAt(*object, time_s);
+      const Placement state = StateAt(*object, time_s);
       if (state.presence == Presence::kAway) continue;
       JudgePlace(i, *object, state,
                  OutsideShare(*object, state, *T_world_camera, instances, depth_m, region.box));
@@ -180,7 +180,7 @@ class TruthChecker {
   }
 
   // Share of the object's pixels whose points lie outside its box; nothing if they are too few.
-  std::optional<double> OutsideShare(const TrueObject& object, const ObjectState& state,
+  std::optional<double> OutsideShare(const TrueObject& object, const Placement& state,
                                      const Se3& T_world_camera, const cv::Mat& instances,
                                      const cv::Mat& depth_m, const Box& box) const {
     const Camera& camera = frames_.camera();
@@ -204,7 +204,7 @@ class TruthChecker {
     return static_cast<double>(num_outside) / num_pixels;
   }
 
-  void JudgePlace(std::size_t i, const TrueObject& object, const ObjectState& state,
+  void JudgePlace(std::size_t i, const TrueObject& object, const Placement& state,
                   std::optional<double> outside_share) {
     if (!outside_share) return;
     ++result_.num_posed;

@@ -34,7 +34,7 @@ const TrueObject* FindObject(const TrueObjects& objects, int instance) {
   return found == objects.objects.end() ? nullptr : &*found;
 }
 
-ObjectState StateAt(const TrueObject& object, double time_s) {
+Placement StateAt(const TrueObject& object, double time_s) {
   for (const TrueInterval& interval : object.intervals) {
     if (time_s < interval.from_s || time_s >= interval.to_s) continue;
     return {.presence = interval.is_moving ? Presence::kMoving : Presence::kResting,
@@ -53,8 +53,8 @@ bool IsSamePlace(const TrueObjects& objects, int instance, double time_a_s, doub
   if (instance == 0) return true;
   const TrueObject* object = FindObject(objects, instance);
   if (object == nullptr || object->is_deformable) return false;
-  const ObjectState a = StateAt(*object, time_a_s);
-  const ObjectState b = StateAt(*object, time_b_s);
+  const Placement a = StateAt(*object, time_a_s);
+  const Placement b = StateAt(*object, time_b_s);
   if (a.presence != Presence::kResting || b.presence != Presence::kResting) return false;
   const PoseDifference difference = Difference(a.T_world_object, b.T_world_object);
   return difference.distance_m < kSamePlaceM && difference.angle_rad < kSameAngleRad;

@@ -20,7 +20,7 @@ inline double TimeOf(const TrueObjects& objects, Stamp stamp) {
 const TrueObject* FindObject(const TrueObjects& objects, int instance);
 
 // Intervals hold from_s <= t < to_s; moving poses are interpolated.
-ObjectState StateAt(const TrueObject& object, double time_s);
+Placement StateAt(const TrueObject& object, double time_s);
 
 // Whether an interval begins or ends within 1 ms of the time: too near to be judged.
 bool IsAtBoundary(const TrueObject& object, double time_s);

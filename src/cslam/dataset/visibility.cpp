@@ -137,7 +137,7 @@ std::vector<OrientedBox> WorldBoxes::At(double time_s, int without) const {
       boxes.push_back(Of(instance, world_.scene.objects[index].T_world_object));
       continue;
     }
-    const ObjectState state = StateAt(timeline->second, time_s);
+    const Placement state = StateAt(timeline->second, time_s);
     if (state.presence != Presence::kAway) boxes.push_back(Of(instance, state.T_world_object));
   }
   return boxes;

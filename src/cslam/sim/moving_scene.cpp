@@ -21,7 +21,7 @@ std::optional<PlacedObject> PlaceMover(const World& world, int instance, double 
     if (!shape) return std::nullopt;
     return Place(world.scene, instance, *shape);
   }
-  const ObjectState state = StateAt(world, instance, time_s);
+  const Placement state = StateAt(world, instance, time_s);
   if (state.presence != Presence::kMoving) return std::nullopt;
   return Place(world.scene, instance, state.T_world_object);
 }

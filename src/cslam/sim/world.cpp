@@ -20,7 +20,7 @@ Se3 PoseDuring(const Carry& carry, double time_s) {
 
 }  // namespace
 
-ObjectState StateAt(const Timeline& timeline, double time_s) {
+Placement StateAt(const Timeline& timeline, double time_s) {
   for (const Stay& stay : timeline.stays) {
     if (stay.from_s <= time_s && time_s < stay.to_s) {
       return {Presence::kResting, stay.T_world_object};
@@ -33,7 +33,7 @@ ObjectState StateAt(const Timeline& timeline, double time_s) {
   return {};
 }
 
-ObjectState StateAt(const World& world, int instance, double time_s) {
+Placement StateAt(const World& world, int instance, double time_s) {
   const auto timeline = world.timelines.find(instance);
   if (timeline != world.timelines.end()) return StateAt(timeline->second, time_s);
   const auto& object = world.scene.objects[static_cast<std::size_t>(instance)];

@@ -38,12 +38,12 @@ struct Timeline {
 
 enum class Presence { kAway, kResting, kMoving };
 
-struct ObjectState {
+struct Placement {
   Presence presence = Presence::kAway;
   Se3 T_world_object;  // meaningless while away
 };
 
-ObjectState StateAt(const Timeline& timeline, double time_s);
+Placement StateAt(const Timeline& timeline, double time_s);
 
 // A body that changes its shape: one entry per vertex of its mesh in the scene, world frame.
 struct BodyShape {
@@ -64,7 +64,7 @@ struct World {
 };
 
 // The same for an object of a world (not for animated ones, whose motion is the animation's).
-ObjectState StateAt(const World& world, int instance, double time_s);
+Placement StateAt(const World& world, int instance, double time_s);
 
 // The world without the objects of a class; the others keep their order, not their instance ids.
 World WithoutClass(World world, int class_id);

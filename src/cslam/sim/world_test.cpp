@@ -23,7 +23,7 @@ Timeline MakeTimeline() {
 }
 
 void ExpectAt(double time_s, Presence presence, double x_m) {
-  const ObjectState state = StateAt(MakeTimeline(), time_s);
+  const Placement state = StateAt(MakeTimeline(), time_s);
   EXPECT_EQ(state.presence, presence) << time_s << " s";
   EXPECT_NEAR(state.T_world_object.translation.x(), x_m, 1e-12) << time_s << " s";
 }
