@@ -3,6 +3,7 @@
 #include "cslam/tracking/frame_observer.h"
 
 #include "cslam/util/stopwatch.h"
+#include "cslam/vision/depth_thumbnail.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -28,6 +29,26 @@ cv::Mat AllowedMask(const cv::Mat& forbidden_small, const cv::Size& size, int bo
   const int width = 2 * border_px + 1;
   cv::dilate(forbidden, forbidden, cv::Mat::ones(width, width, CV_8UC1));
   return forbidden == 0;
+}
+
+// A thumbnail mask of undistorted pixels, moved to the pixels as recorded. Their edges are
+// uncertain by a pixel, so it is one wider.
+cv::Mat RecordedMask(const cv::Mat& undistorted, const Camera& camera) {
+  cv::Mat wider;
+  cv::dilate(undistorted, wider, cv::Mat::ones(3, 3, CV_8UC1));
+  if (!camera.HasDistortion()) return wider;
+  const int step = DepthThumbnailStep(camera.width);
+  cv::Mat recorded = cv::Mat::zeros(wider.size(), CV_8UC1);
+  const cv::Rect inside(cv::Point(), wider.size());
+  for (int v = 0; v < recorded.rows; ++v) {
+    for (int u = 0; u < recorded.cols; ++u) {
+      const Eigen::Vector2d raw_px(u * step + step / 2, v * step + step / 2);
+      const Eigen::Vector2d uv = (Undistort(camera, raw_px) / step).array().floor();
+      const cv::Point pixel(static_cast<int>(uv.x()), static_cast<int>(uv.y()));
+      if (inside.contains(pixel)) recorded.at<std::uint8_t>(v, u) = wider.at<std::uint8_t>(pixel);
+    }
+  }
+  return recorded;
 }
 
 void ReportKeypoints(TrackingResult& result, const FrameFeatures& features) {
@@ -113,6 +134,14 @@ std::vector<std::uint8_t> FrameObserver::FindUnknown(const Se3& T_world_camera, 
   FrameFeatures features;
   features.keypoints = data.features.keypoints;
   return Label(features);
+}
+
+cv::Mat FrameObserver::RestingDepth(const cv::Mat& depth_m) const {
+  cv::Mat depth_mm = MakeDepthThumbnail(depth_m);
+  if (depth_mm.empty() || !options_.objects.enabled) return depth_mm;
+  const cv::Mat mask = objects_.DynamicMask();
+  if (mask.size() == depth_mm.size()) depth_mm.setTo(0, RecordedMask(mask, camera_));
+  return depth_mm;
 }
 
 void FrameObserver::Settle(const std::optional<Se3>& T_world_camera, TrackingResult& result) {

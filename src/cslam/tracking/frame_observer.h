@@ -38,6 +38,9 @@ class FrameObserver {
   std::vector<std::uint8_t> FindUnknown(const Se3& T_world_camera, int num_inliers,
                                         const KeyframeData& data);
 
+  // The reduced depth image a keyframe keeps: without people and what moves.
+  cv::Mat RestingDepth(const cv::Mat& depth_m) const;
+
   // Closes the frame. T_world_camera: its pose, or nothing if it was not found.
   void Settle(const std::optional<Se3>& T_world_camera, TrackingResult& result);
 

@@ -5,7 +5,6 @@
 #include "cslam/tracking/keyframe_policy.h"
 #include "cslam/util/check.h"
 #include "cslam/util/stopwatch.h"
-#include "cslam/vision/depth_thumbnail.h"
 
 #include <algorithm>
 #include <cmath>
@@ -447,7 +446,7 @@ void Tracker::StartMap(CurrentFrame& current) {
 }
 
 KeyframeProposal Tracker::Propose(CurrentFrame& current, KeyframeReason reason) {
-  current.data->depth_small_mm = MakeDepthThumbnail(current.frame->depth_m);
+  current.data->depth_small_mm = observer_.RestingDepth(current.frame->depth_m);
   KeyframeProposal proposal;
   proposal.id = KeyframeId(next_keyframe_++);
   proposal.map = map_;
