@@ -8,6 +8,7 @@
 #include "cslam/io/pcd_file.h"
 #include "cslam/io/point_cloud_file.h"
 #include "cslam/io/trajectory_file.h"
+#include "cslam/navigation/grid_file.h"
 #include "cslam/util/text_table.h"
 
 #include <CLI/CLI.hpp>
@@ -41,6 +42,8 @@ struct ExportArguments {
   std::optional<std::uint32_t> map_id;
   bool dense = false;
   DenseCloudOptions dense_options;
+  fs::path grid;
+  ConfigArguments config;  // of the grid
 };
 
 std::string SizeText(const Eigen::AlignedBox3d& box) {
@@ -140,7 +143,30 @@ void ExportTrajectory(const ExportArguments& arguments, const SavedMap& saved, M
   fmt::print(stderr, "{} keyframes in '{}'\n", trajectory.size(), arguments.out.string());
 }
 
+void ExportGrid(const ExportArguments& arguments, const SavedMap& saved, MapId map) {
+  const OccupancyGridOptions options = LoadSlamOptions(arguments.config).grid;
+  const auto grid = BuildOccupancyGrid(saved.map, map, saved.info.camera.camera,
+                                       AbsentObjects(saved.map, map), options);
+  if (!grid) {
+    throw Error("there is no depth in map {} of '{}' to draw a grid of", map.value(),
+                arguments.file.string());
+  }
+  WriteOccupancyGrid(arguments.grid, *grid);
+  fmt::print(stderr, "{} x {} cells of {} m in '{}'{}\n", grid->width, grid->height,
+             grid->resolution_m, arguments.grid.string(),
+             grid->has_floor ? "" : "; no floor was seen, its height is assumed");
+}
+
 void CheckExport(const ExportArguments& arguments) {
+  const fs::path& grid = arguments.grid;
+  if (!grid.empty() && grid.extension() != ".yaml") {
+    throw UsageError(fmt::format("--grid '{}' must end in .yaml", grid.string()));
+  }
+  if (arguments.out.empty()) {
+    if (grid.empty()) throw UsageError("say what to write: --out FILE, --grid FILE, or both");
+    if (arguments.dense) throw UsageError("--dense makes a cloud: --out with .ply or .pcd");
+    return;
+  }
   const std::string kind = arguments.out.extension().string();
   const bool is_cloud = kind == ".ply" || kind == ".pcd";
   if (!is_cloud && kind != ".txt" && kind != ".json") {
@@ -159,12 +185,13 @@ int Export(const ExportArguments& arguments) {
     WriteMapJson(arguments.out, saved);
     fmt::print(stderr, "{} keyframes and {} points in '{}'\n", saved.map.num_keyframes(),
                saved.map.num_points(), arguments.out.string());
-    return kExitOk;
+    if (arguments.grid.empty()) return kExitOk;
   }
   const MapId map = ChooseMap(arguments, SummariseMaps(saved.map));
+  if (!arguments.grid.empty()) ExportGrid(arguments, saved, map);
   if (kind == ".txt") {
     ExportTrajectory(arguments, saved, map);
-  } else {
+  } else if (kind == ".ply" || kind == ".pcd") {
     ExportCloud(arguments, saved, map);
   }
   return kExitOk;
@@ -181,13 +208,18 @@ void AddInfo(CLI::App& group, int& exit_code) {
 
 void AddExport(CLI::App& group, int& exit_code) {
   CLI::App* const app = group.add_subcommand(
-      "export", "Write a saved map as a point cloud, a trajectory of keyframes, or JSON");
+      "export",
+      "Write a saved map as a point cloud, a trajectory of keyframes, JSON or an occupancy grid");
   const auto arguments = std::make_shared<ExportArguments>();
   app->add_option("FILE", arguments->file, "Saved map")->required();
   app->add_option("--out", arguments->out,
                   "What to write; its name tells the kind: .ply, .pcd, .txt (TUM format), .json")
-      ->required()
       ->type_name("FILE");
+  app->add_option("--grid", arguments->grid,
+                  "Where a robot may drive, as ROS' map_server reads it: FILE, a .yaml, and its "
+                  ".pgm beside it")
+      ->type_name("FILE");
+  AddConfigArguments(*app, arguments->config);
   app->add_option("--map-id", arguments->map_id, "Which map of several; default: the largest");
   CLI::Option* const dense = app->add_flag(
       "--dense", arguments->dense, "The keyframes' depth, without people, instead of map points");
@@ -205,6 +237,7 @@ void AddExport(CLI::App& group, int& exit_code) {
   AddExamples(*app,
               {"map export desk.map --out desk.ply",
                "map export desk.map --out dense.pcd --dense --voxel 0.02",
+               "map export desk.map --grid desk.yaml --set grid.resolution=0.1",
                "map export desk.map --out keyframes.txt", "map export desk.map --out desk.json"});
   app->callback([arguments, &exit_code] { exit_code = Export(*arguments); });
 }

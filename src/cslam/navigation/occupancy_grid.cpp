@@ -213,6 +213,21 @@ CellState OccupancyGrid::At(const Eigen::Vector2d& p_grid) const {
                static_cast<std::size_t>(cell.x())];
 }
 
+std::vector<ClearedRegion> AbsentObjects(const MapView& map, MapId map_id) {
+  std::vector<ClearedRegion> regions;
+  for (const ObjectId id : map.Objects()) {
+    const MapObject& object = map.ObjectSlot(id.index());
+    if (object.map != map_id || object.state != ObjectState::kAbsent) continue;
+    const auto T_world_reference = map.T_world_keyframe(object.reference);
+    if (!T_world_reference) continue;
+    regions.push_back(
+        {.T_world_box = *T_world_reference * Se3(object.box.rotation, object.box.center),
+         .size_m = object.box.size_m,
+         .last_seen = object.last_keyframe});
+  }
+  return regions;
+}
+
 std::optional<OccupancyGrid> BuildOccupancyGrid(const MapView& map, MapId map_id,
                                                 const Camera& camera,
                                                 std::span<const ClearedRegion> cleared,

@@ -56,6 +56,9 @@ struct ClearedRegion {
   KeyframeId last_seen = {};  // the last keyframe that saw it there; invalid: all readings are old
 };
 
+// Where objects of a map stood that are gone.
+std::vector<ClearedRegion> AbsentObjects(const MapView& map, MapId map_id);
+
 // From the depth of one map's keyframes. Rays are cast through layers of cells (log-odds), and a
 // cell is occupied if one of its layers within the band of heights is. Readings on what stood in
 // the cleared regions are no obstacles, but the way up to them was free. nullopt if no keyframe

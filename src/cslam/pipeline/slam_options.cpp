@@ -27,6 +27,7 @@ void Describe(OptionList& list, SlamOptions& o) {
   list.Group("detection", o.detection);
   list.Group("detector", o.detector);
   list.Group("pipeline", o.pipeline);
+  list.Group("grid", o.grid);
 }
 
 }  // namespace cslam

@@ -5,6 +5,7 @@
 #include "cslam/loop/place_stage.h"
 #include "cslam/mapping/full_ba.h"
 #include "cslam/mapping/mapper_options.h"
+#include "cslam/navigation/occupancy_grid.h"
 #include "cslam/pipeline/detection_schedule.h"
 #include "cslam/semantics/detector_options.h"
 #include "cslam/tracking/tracker_options.h"
@@ -30,6 +31,7 @@ struct SlamOptions {
   DetectionOptions detection;
   DetectorOptions detector;  // for whoever makes the detector that Slam is given
   PipelineOptions pipeline;
+  OccupancyGridOptions grid;  // for whoever draws one of the finished map
 };
 void Describe(OptionList& list, SlamOptions& options);
 

@@ -6,6 +6,7 @@
 #include "cslam/io/config.h"
 #include "cslam/io/point_cloud_file.h"
 #include "cslam/io/trajectory_file.h"
+#include "cslam/navigation/grid_file.h"
 #include "cslam/run/frames_csv.h"
 #include "cslam/run/loops_json.h"
 #include "cslam/run/map_cloud.h"
@@ -43,6 +44,15 @@ void WritePlot(const fs::path& path, const RunReport& report, const Trajectory& 
 
 void WritePoses(const fs::path& path, const Trajectory& trajectory, const char* what) {
   WriteTrajectory(path, trajectory, fmt::format("{}\n{}", what, kPoseColumns));
+}
+
+void WriteGrid(const fs::path& path, const RunReport& report, const RunResult& result,
+               const OccupancyGridOptions& options) {
+  const MapView& map = result.snapshot->map;
+  const MapId id = LargestMap(result);
+  const auto grid =
+      BuildOccupancyGrid(map, id, report.camera.camera, AbsentObjects(map, id), options);
+  if (grid) WriteOccupancyGrid(path, *grid);
 }
 
 // Runs every step, whatever becomes of the others.
@@ -103,6 +113,7 @@ void WriteRunFolder(const RunReport& report, const RunOutcome& outcome,
     WritePointCloud(folder / "map.ply", ColourMap(outcome.result, dataset),
                     "map points, metres, world frame of trajectory.txt");
   });
+  steps.Run([&] { WriteGrid(folder / "grid.yaml", report, outcome.result, options.grid); });
   steps.Run([&] { WritePlot(folder / "trajectory.svg", report, trajectories.final_poses); });
   steps.ThrowFirstError();
   WriteFileAtomically(folder / "run.json", FormatRunJson(report));

@@ -27,7 +27,8 @@ constexpr RunSettings kInline = {.execution = Execution::kInline, .rate = PlayRa
 const std::vector<std::string>& RepeatableFiles() {
   static const std::vector<std::string> kFiles = {
       "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "loops.json",
-      "map.ply",        "config.yaml",         "trajectory.svg"};
+      "map.ply",        "grid.yaml",           "grid.pgm",      "config.yaml",
+      "trajectory.svg"};
   return kFiles;
 }
 
@@ -74,7 +75,7 @@ TEST_F(RunWriterTest, WritesEveryFileAndNoOther) {
   EXPECT_EQ(FilesIn(folder_.path()),
             (std::set<std::string>{"trajectory.txt", "trajectory_live.txt", "keyframes.txt",
                                    "frames.csv", "loops.json", "map.ply", "config.yaml", "run.json",
-                                   "trajectory.svg"}));
+                                   "trajectory.svg", "grid.yaml", "grid.pgm"}));
   const Trajectory poses = ReadTrajectory(folder_ / "trajectory.txt");
   ASSERT_EQ(poses.size(), static_cast<std::size_t>(kNumFrames));
   EXPECT_EQ(FormatStamp(poses[3].stamp), FormatStamp(dataset_.stamp(3)));
