@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/scene_eval/change_eval.h"
 
+#include "cslam/eval/statistics.h"
 #include "cslam/scene_eval/assignment.h"
 #include "cslam/util/check.h"
 
@@ -58,13 +59,6 @@ bool IsAbout(const KnowableChange& truth, const ReportedChange& report,
       report.kind == ChangeKind::kReplaced ? report.new_class_id : report.class_id;
   return (!report.from || is_old(report.from, report.class_id)) &&
          (!report.to || is_new(report.to, class_after));
-}
-
-std::optional<double> MedianOf(std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 class ChangeJudge {
@@ -178,8 +172,10 @@ class ChangeJudge {
     }
     for (const auto& [kind, score] : evaluation_.kinds)
       evaluation_.all += score;
-    evaluation_.median_delay_s = MedianOf(delays);
-    if (!delays.empty()) evaluation_.max_delay_s = *std::max_element(delays.begin(), delays.end());
+    if (delays.empty()) return;
+    const ErrorStatistics statistics = Summarise(delays);
+    evaluation_.median_delay_s = statistics.median;
+    evaluation_.max_delay_s = statistics.max;
   }
 
   const SceneEvalOptions& options_;
@@ -192,8 +188,7 @@ ChangeEvaluation EvaluateChanges(const SceneTruth& truth, const SceneRun& run,
                                  const SceneEvalOptions& options) {
   if (!run.changes)
     throw Error("'{}' holds no changes.json; run with the object layer on", run.folder.string());
-  SceneEvalOptions known = options;
-  if (known.classes.empty()) known.classes = ClassesOf(truth.objects);
+  const SceneEvalOptions known = WithKnownClasses(options, truth.objects);
   return JudgeChanges(KnowableChanges(truth, truth.TimeOf(run.first_stamp()),
                                       truth.TimeOf(run.last_stamp()), known),
                       *run.changes, truth.objects.start, known);

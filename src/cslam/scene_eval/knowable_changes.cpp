@@ -235,8 +235,7 @@ double KnowableChange::last_view_s() const {
 
 std::vector<KnowableChange> KnowableChanges(const SceneTruth& truth, double start_s, double end_s,
                                             const SceneEvalOptions& options) {
-  SceneEvalOptions known = options;
-  if (known.classes.empty()) known.classes = ClassesOf(truth.objects);
+  const SceneEvalOptions known = WithKnownClasses(options, truth.objects);
   return ChangeSurvey(truth, start_s, end_s, known).Survey();
 }
 

@@ -9,14 +9,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <utility>
 
 namespace cslam {
 namespace {
-
-std::set<int> ClassesAsked(const SceneTruth& truth, const SceneEvalOptions& options) {
-  return options.classes.empty() ? ClassesOf(truth.objects) : options.classes;
-}
 
 // A place, and what would have to be seen of it to know what is there.
 struct OpenPlace {
@@ -44,7 +41,7 @@ std::vector<OpenPlace> PlacesOf(const TrueObject& object, double start_s, double
     open.query.from_s = std::max(start_s, open.is_former ? rest.to_s : rest.from_s);
     open.query.shown_instance = open.is_former ? 0 : object.instance;
   }
-  const ObjectState state = StateAt(object, end_s);
+  const Placement state = StateAt(object, end_s);
   if (state.presence == Presence::kMoving) {
     OpenPlace& open = add(state.T_world_object);
     open.query.until_s = open.query.from_s - 1.0;  // no view of a moving thing will do
@@ -179,7 +176,7 @@ class ObjectJudge {
 
 std::vector<TruePlace> TruePlacesAt(const SceneTruth& truth, double start_s, double end_s,
                                     const SceneEvalOptions& options) {
-  const std::set<int> classes = ClassesAsked(truth, options);
+  const std::set<int> classes = WithKnownClasses(options, truth.objects).classes;
   std::vector<OpenPlace> open;
   for (const TrueObject& object : truth.objects.objects) {
     if (!classes.contains(object.class_id) || object.is_deformable) continue;
@@ -203,8 +200,7 @@ ObjectEvaluation EvaluateObjects(const SceneTruth& truth, const SceneRun& run,
                                  const SceneEvalOptions& options) {
   if (!run.objects)
     throw Error("'{}' holds no objects.json; run with the object layer on", run.folder.string());
-  SceneEvalOptions known = options;
-  known.classes = ClassesAsked(truth, options);
+  const SceneEvalOptions known = WithKnownClasses(options, truth.objects);
   return JudgeObjects(
       TruePlacesAt(truth, truth.TimeOf(run.first_stamp()), truth.TimeOf(run.last_stamp()), known),
       *run.objects, known);

@@ -12,6 +12,12 @@ std::optional<double> Share(int part, int whole) {
 
 }  // namespace
 
+SceneEvalOptions WithKnownClasses(const SceneEvalOptions& options, const TrueObjects& objects) {
+  SceneEvalOptions known = options;
+  if (known.classes.empty()) known.classes = ClassesOf(objects);
+  return known;
+}
+
 std::optional<double> DetectionScore::Precision() const {
   return Share(num_matched, num_reported);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/io/truth_files.h"
 #include "cslam/scene_eval/clear_view.h"
 
 #include <optional>
@@ -14,6 +15,9 @@ struct SceneEvalOptions {
   std::set<int> classes = {};   // COCO; empty: all of the truth but people
   ClearViewOptions clear_view = {};
 };
+
+// The same with classes filled in: those of the truth but people, unless some are asked for.
+SceneEvalOptions WithKnownClasses(const SceneEvalOptions& options, const TrueObjects& objects);
 
 // Counts of a score. Undefined shares (nothing to divide by) are nothing.
 struct DetectionScore {
