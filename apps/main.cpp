@@ -18,6 +18,7 @@
 #include "cmd_eval.h"
 #include "cmd_map.h"
 #include "cmd_model.h"
+#include "cmd_relocalise.h"
 #include "cmd_run.h"
 #include "exit_codes.h"
 #include "parse_error.h"
@@ -63,6 +64,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   AddEvalCommand(root, exit_code);
   AddDatasetCommand(root, exit_code);
   AddMapCommand(root, exit_code);
+  AddRelocaliseCommand(root, exit_code);
   AddModelCommand(root, exit_code);
   AddConfigCommand(root, exit_code);
   AddExamples(root, {"run ~/data/rgbd_dataset_freiburg1_desk --out runs/desk",

@@ -193,7 +193,8 @@ int Run(const std::vector<std::string>& arguments) {
     const SlamOptions options = OptionsOf(arguments[i], sequence);
     const auto counter = std::make_shared<LabelCounter>(truth);
     RunSequence(*dataset, options, {.execution = Execution::kInline},
-                MakeDetector(options.detector).detector, {counter}, [] { return false; });
+                {.detector = MakeDetector(options.detector).detector, .listeners = {counter}},
+                [] { return false; });
     PrintRow(arguments[i], *counter);
     is_missed = is_missed || (arguments[i] == "perfect" &&
                               (counter->people_removed.value() < kMinPeopleRemoved ||

@@ -31,6 +31,10 @@ FrameRecord MakeRecord(const TrackingResult& result) {
   return record;
 }
 
+bool IsOfThisRun(const MapView& map, KeyframeId keyframe) {
+  return map.SessionOf(keyframe) + 1 == map.sessions().size();
+}
+
 MapId LargestMap(const RunResult& result) {
   std::map<MapId, int> counts;
   for (const FrameRecord& frame : result.frames) {
@@ -71,7 +75,8 @@ Trajectory KeyframeTrajectory(const RunResult& result) {
   const MapId map = LargestMap(result);
   for (const KeyframeId id : result.snapshot->map.Keyframes()) {
     const Keyframe& keyframe = *result.snapshot->map.FindKeyframe(id);
-    if (keyframe.map == map) trajectory.push_back({keyframe.data->stamp, keyframe.T_world_camera});
+    if (keyframe.map != map || !IsOfThisRun(result.snapshot->map, id)) continue;
+    trajectory.push_back({keyframe.data->stamp, keyframe.T_world_camera});
   }
   return trajectory;
 }

@@ -34,6 +34,9 @@ struct RunResult {
 // The map that a tracked frame's reference keyframe is in by now: maps merge.
 MapId MapOf(const RunResult& result, const FrameRecord& frame);
 
+// Whether this run made the keyframe, and not an earlier one whose map it went on in.
+bool IsOfThisRun(const MapView& map, KeyframeId keyframe);
+
 // The map in which most frames were tracked; invalid if none was.
 MapId LargestMap(const RunResult& result);
 
@@ -43,7 +46,7 @@ Trajectory FinalTrajectory(const RunResult& result);
 // The same frames' poses as they were first published.
 Trajectory LiveTrajectory(const RunResult& result);
 
-// Final poses of that map's keyframes.
+// Final poses of those keyframes of that map that this run made.
 Trajectory KeyframeTrajectory(const RunResult& result);
 
 }  // namespace cslam

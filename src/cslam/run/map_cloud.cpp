@@ -72,7 +72,7 @@ std::vector<ColoredPoint> ColourMap(const RunResult& result, const DatasetReader
     if (point == nullptr || !point->IsActive() || point->map != map) continue;
     const PointObservation* const seen = FindBestObservation(*point);
     const Keyframe* const keyframe = seen == nullptr ? nullptr : view.FindKeyframe(seen->keyframe);
-    if (keyframe != nullptr) {
+    if (keyframe != nullptr && IsOfThisRun(view, keyframe->id)) {
       const auto keypoint = static_cast<std::size_t>(seen->keypoint);
       const Eigen::Vector2f raw_px = keyframe->data->features.keypoints[keypoint].raw_px;
       sources[keyframe->id].push_back({.point = cloud.size(), .raw_px = raw_px});

@@ -67,6 +67,7 @@ JsonObject MapToJson(const RunReport& report) {
   JsonObject json;
   json.Add("num_maps", report.map.num_maps);
   json.Add("keyframes", report.map.keyframes);
+  json.Add("earlier_keyframes", report.map.earlier_keyframes);
   json.Add("points", report.map.points);
   json.Add("keyframes_inserted", mapping.keyframes_inserted);
   json.Add("keyframes_refused", mapping.keyframes_refused);
@@ -169,6 +170,12 @@ std::string FormatRunJson(const RunReport& report) {
   json.Add("rate", ToString(identity.settings.rate));
   json.Add("detector", ToJson(identity.detector));
   json.Add("schedule", identity.schedule);
+  json.Add("mode", identity.settings.mode == TrackingMode::kMapping ? "mapping" : "localise_only");
+  const auto path_or_null = [](const std::filesystem::path& path) {
+    return path.empty() ? std::nullopt : std::optional(path.string());
+  };
+  json.Add("map_file", path_or_null(identity.map));
+  json.Add("saved_map_file", path_or_null(identity.save_map));
   json.AddNull("seed");  // nothing is random so far
   json.Add("was_interrupted", report.was_interrupted);
   json.Add("camera", ToJson(report.camera));

@@ -55,7 +55,7 @@ MapCounts CountMap(const RunResult& result) {
   const MapView& view = result.snapshot->map;
   std::set<MapId> maps;
   for (const FrameRecord& frame : result.frames) {
-    if (frame.state == TrackingState::kTracking) maps.insert(frame.map);
+    if (frame.state == TrackingState::kTracking) maps.insert(MapOf(result, frame));
   }
   counts.num_maps = maps.size();
   std::size_t bytes = 0;
@@ -63,6 +63,7 @@ MapCounts CountMap(const RunResult& result) {
     const Keyframe& keyframe = *view.FindKeyframe(id);
     if (keyframe.map != map) continue;
     ++counts.keyframes;
+    if (!IsOfThisRun(view, id)) ++counts.earlier_keyframes;
     bytes += EstimateBytes(keyframe);
   }
   for (std::size_t i = 0; i < view.num_point_ids(); ++i) {

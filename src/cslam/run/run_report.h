@@ -24,8 +24,10 @@ struct RunIdentity {
   std::filesystem::path sequence;
   std::filesystem::path folder;  // of the results
   RunSettings settings;
-  DetectorInfo detector = {};  // kind "none" if there was none
-  std::string schedule = {};   // of its detections: "every-frame" or "live"
+  DetectorInfo detector = {};           // kind "none" if there was none
+  std::string schedule = {};            // of its detections: "every-frame" or "live"
+  std::filesystem::path map = {};       // that it went on in; empty: none
+  std::filesystem::path save_map = {};  // where its map was saved; empty: nowhere
 };
 
 // Input frames are those that were read or should have been: all of the sequence, or of the part
@@ -45,8 +47,9 @@ struct FrameCounts {
 };
 
 struct MapCounts {
-  std::size_t num_maps = 0;   // in which frames were tracked
-  std::size_t keyframes = 0;  // of the map that holds most frames
+  std::size_t num_maps = 0;           // in which frames were tracked; merged ones count once
+  std::size_t keyframes = 0;          // of the map that holds most frames
+  std::size_t earlier_keyframes = 0;  // of these, made by earlier runs
   std::size_t points = 0;
   double mean_keyframe_bytes = 0.0;  // estimated: features, descriptors, small depth image, links
 };

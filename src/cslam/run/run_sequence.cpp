@@ -11,20 +11,22 @@
 namespace cslam {
 
 RunOutcome RunSequence(const DatasetReader& dataset, const SlamOptions& options,
-                       const RunSettings& settings, std::unique_ptr<Detector> detector,
-                       std::vector<std::shared_ptr<OutputSink>> listeners,
+                       const RunSettings& settings, RunParts parts,
                        const std::function<bool()>& is_interrupted) {
   const bool is_inline = settings.execution == Execution::kInline;
   const bool is_sensor_rate = settings.rate == PlayRate::kSensor;
   CSLAM_CHECK(!(is_inline && is_sensor_rate), "inline execution cannot drop frames");
   const auto recorder = std::make_shared<RunRecorder>();
-  listeners.push_back(recorder);
+  parts.listeners.push_back(recorder);
   RunOutcome outcome;
   const Stopwatch watch;
   const double cpu_before_s = ProcessCpuSeconds();
   {
-    Slam slam(dataset.camera().camera, options, settings.execution, std::move(listeners),
-              is_sensor_rate ? FeedPolicy::kDropOldest : FeedPolicy::kWait, std::move(detector));
+    Slam slam(dataset.camera().camera, options, settings.execution, std::move(parts.listeners),
+              is_sensor_rate ? FeedPolicy::kDropOldest : FeedPolicy::kWait,
+              std::move(parts.detector));
+    if (parts.map) slam.Continue(*std::move(parts.map));
+    slam.SetMode(settings.mode);
     outcome.play =
         Play(dataset, slam, {.rate = settings.rate, .read_ahead = !is_inline}, is_interrupted);
     outcome.result = slam.Finish();

@@ -18,6 +18,14 @@ namespace cslam {
 struct RunSettings {
   Execution execution = Execution::kThreaded;
   PlayRate rate = PlayRate::kMax;
+  TrackingMode mode = TrackingMode::kMapping;
+};
+
+// What a run is given besides frames.
+struct RunParts {
+  std::unique_ptr<Detector> detector = {};                  // null: none
+  std::optional<Map> map = {};                              // of an earlier run, to go on in
+  std::vector<std::shared_ptr<OutputSink>> listeners = {};  // told what happens
 };
 
 // What a run took, from its first frame read to its last one processed.
@@ -37,10 +45,9 @@ struct RunOutcome {
 
 // Runs SLAM on a data set. Inline execution uses one thread for everything, reading included.
 // is_interrupted is asked before every frame; true ends the run with what there is. Throws Error
-// for options or frames that cannot be used. detector: null for none.
+// for options, frames or a map that cannot be used.
 RunOutcome RunSequence(const DatasetReader& dataset, const SlamOptions& options,
-                       const RunSettings& settings, std::unique_ptr<Detector> detector,
-                       std::vector<std::shared_ptr<OutputSink>> listeners,
+                       const RunSettings& settings, RunParts parts,
                        const std::function<bool()>& is_interrupted);
 
 }  // namespace cslam

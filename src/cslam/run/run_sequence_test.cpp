@@ -19,8 +19,7 @@ bool Never() {
 
 RunReport RunAndReport(const MemoryDataset& dataset, const RunSettings& settings,
                        const std::function<bool()>& is_interrupted = Never) {
-  const RunOutcome outcome =
-      RunSequence(dataset, SlamOptions(), settings, nullptr, {}, is_interrupted);
+  const RunOutcome outcome = RunSequence(dataset, SlamOptions(), settings, {}, is_interrupted);
   RunIdentity identity;
   identity.settings = settings;
   return MakeReport(std::move(identity), dataset, outcome, ExtractTrajectories(outcome.result));

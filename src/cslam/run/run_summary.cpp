@@ -63,11 +63,16 @@ std::string CpuText(const RunReport& report) {
                      1e3 * report.cost.cpu_s / processed);
 }
 
+std::string KeyframeText(const MapCounts& map) {
+  if (map.earlier_keyframes == 0) return fmt::format("{}", map.keyframes);
+  return fmt::format("{}, {} of them of earlier runs", map.keyframes, map.earlier_keyframes);
+}
+
 std::string ResultTable(const RunReport& report) {
   TextTable table;
   table.AddRow({"frames", FrameText(report.frames)});
   table.AddRow({"tracked", TrackedText(report)});
-  table.AddRow({"keyframes", fmt::format("{}", report.map.keyframes)});
+  table.AddRow({"keyframes", KeyframeText(report.map)});
   table.AddRow({"points", fmt::format("{}", report.map.points)});
   AddAccuracy(report.accuracy, table);
   table.AddRow({"path length", fmt::format("{:.2f} m", report.path_length_m)});

@@ -40,7 +40,7 @@ struct FinishedRun {
 
 FinishedRun RunInto(const fs::path& folder, const MemoryDataset& dataset) {
   FinishedRun run;
-  run.outcome = RunSequence(dataset, SlamOptions(), kInline, nullptr, {}, [] { return false; });
+  run.outcome = RunSequence(dataset, SlamOptions(), kInline, {}, [] { return false; });
   run.trajectories = ExtractTrajectories(run.outcome.result);
   run.report = MakeReport({.version = "1.2.3",
                            .commit = "abc",
