@@ -86,6 +86,10 @@ void AddStoryOptions(CLI::App& app, RenderRequest& request) {
   app.add_flag("--short", request.is_short, "The same story within 40 s");
   app.add_flag("--without-people", request.without_people,
                "Leave people out, to compare with; what they carry moves all the same");
+  app.add_option("--without", request.without,
+                 "Leave out an object by its name in objects.json; can be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
 }
 
 void AddRender(CLI::App& dataset, int& exit_code) {

@@ -126,6 +126,24 @@ class StoryTest(RenderTestCase):
         check = run("dataset", "check", self.out)
         self.assertEqual(check.returncode, 0, check.stdout)
 
+    def test_objects_can_be_left_out_by_name(self):
+        options = (*self.OPTIONS, "--frames", "2")
+        self.render_well(*options, "--without", "cart", name="box_carried", size=())
+        record = self.read("render.json")
+        self.assertEqual(record["without"], ["cart"])
+        self.assertIn("--without 'cart'", record["command"])
+        names = {thing["name"] for thing in self.read("objects.json")["objects"]}
+        self.assertNotIn("cart", names)
+        check = run("dataset", "check", self.out)
+        self.assertEqual(check.returncode, 0, check.stdout)
+
+        self.out = self.folder / "none"
+        for name, text in (("box_carried", "has no object 'sofas' to leave out; there are: "),
+                           ("demo", "nothing can be left out of 'demo'")):
+            result = self.render(*options, "--without", "sofas", name=name, size=())
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn(text, result.stderr)
+
     def test_several_sequences_go_to_a_folder_each(self):
         result = run("dataset", "render", "static", "demo", "--out", self.out, *self.OPTIONS,
                      "--frames", "1")

@@ -7,6 +7,7 @@
 #include "cslam/util/text_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace cslam {
 namespace {
@@ -79,6 +80,8 @@ std::string Parameters(const RenderRecord& record, const Camera& camera) {
   table.AddRow({"seed", std::to_string(record.seed)});
   table.AddRow({"look", record.look});
   if (record.without_people) table.AddRow({"people", "left out; what they carry moves by itself"});
+  if (!record.without.empty())
+    table.AddRow({"left out", fmt::format("{}", fmt::join(record.without, ", "))});
   if (!record.program.empty()) table.AddRow({"program", record.program});
   return table.Text();
 }

@@ -7,6 +7,7 @@
 #include "cslam/util/check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 
@@ -26,6 +27,13 @@ SensorNoise ReadNoise(const JsonValue& value) {
     if (name == NameOf(noise)) return noise;
   }
   value.Fail("expected \"off\", \"kinect\" or \"d435i\"");
+}
+
+std::string JsonList(const std::vector<std::string>& names) {
+  std::vector<std::string> quoted;
+  for (const std::string& name : names)
+    quoted.push_back(JsonQuoted(name));
+  return fmt::format("[{}]", fmt::join(quoted, ", "));
 }
 
 PeopleClaim ReadPeople(const JsonValue& value) {
@@ -68,8 +76,13 @@ RenderRecord ReadRenderRecord(const std::filesystem::path& file) {
   RequireFormat(root, kFormat);
   root.RequireKeys({"format", "version", "sequence", "summary", "program", "look", "command",
                     "seed", "is_short", "without_people", "width_px", "height_px", "fps",
-                    "num_frames", "story_duration_s", "noise", "people"});
+                    "num_frames", "story_duration_s", "noise", "people"},
+                   {"without"});
   RenderRecord record;
+  if (root.Has("without")) {
+    for (const JsonValue& name : root.At("without").Items())
+      record.without.push_back(name.Text());
+  }
   record.sequence = root.At("sequence").Text();
   record.summary = root.At("summary").Text();
   record.program = root.At("program").Text();
@@ -97,6 +110,7 @@ void WriteRenderRecord(const std::filesystem::path& file, const RenderRecord& re
   out.Print("  \"command\": {},\n", JsonQuoted(record.command));
   out.Print("  \"seed\": {},\n  \"is_short\": {},\n", record.seed, record.is_short);
   out.Print("  \"without_people\": {},\n", record.without_people);
+  if (!record.without.empty()) out.Print("  \"without\": {},\n", JsonList(record.without));
   out.Print("  \"width_px\": {},\n  \"height_px\": {},\n", record.width_px, record.height_px);
   out.Print("  \"fps\": {},\n  \"num_frames\": {},\n  \"story_duration_s\": {},\n",
             JsonNumber(record.fps), record.num_frames, JsonNumber(record.story_duration_s));
@@ -124,6 +138,8 @@ std::vector<std::string> Differences(const RenderRecord& there, const RenderReco
   compare("the noise", NameOf(there.noise), NameOf(wanted.noise));
   compare("the short form", there.is_short, wanted.is_short);
   compare("leaving people out", there.without_people, wanted.without_people);
+  compare("what is left out", fmt::format("[{}]", fmt::join(there.without, ", ")),
+          fmt::format("[{}]", fmt::join(wanted.without, ", ")));
   compare("the look", there.look, wanted.look);
   compare("the program", there.program, wanted.program);
   return differences;

@@ -26,6 +26,7 @@ struct RenderRecord {
   std::uint64_t seed = 1;
   bool is_short = false;
   bool without_people = false;
+  std::vector<std::string> without;  // names of other objects left out; empty in older records
   int width_px = 0;
   int height_px = 0;
   double fps = 0.0;

@@ -14,6 +14,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 RenderRecord SomeRecord() {
   RenderRecord record;
@@ -25,6 +26,7 @@ RenderRecord SomeRecord() {
   record.seed = std::numeric_limits<std::uint64_t>::max();
   record.is_short = true;
   record.without_people = true;
+  record.without = {"cart", "a \"chair\""};
   record.width_px = 320;
   record.height_px = 240;
   record.fps = 7.5;
@@ -62,9 +64,19 @@ TEST(Differences, NameEveryParameterThatDiffers) {
   other.noise = SensorNoise::kOff;
   other.is_short = false;
   other.without_people = false;
+  other.without = {"cart"};
   other.look = "procedural";
   other.program = "0.2.0";
-  EXPECT_EQ(Differences(SomeRecord(), other).size(), 8U);
+  EXPECT_EQ(Differences(SomeRecord(), other).size(), 9U);
+}
+
+TEST(ReadRenderRecord, TakesARecordThatLeavesNoObjectOut) {
+  const TestFolder folder;
+  RenderRecord whole = SomeRecord();
+  whole.without.clear();
+  WriteRenderRecord(folder / "render.json", whole);
+  EXPECT_THAT(TestFolder::Read(folder / "render.json"), Not(HasSubstr("\"without\"")));
+  EXPECT_THAT(Differences(ReadRenderRecord(folder / "render.json"), whole), ElementsAre());
 }
 
 TEST(ReadRenderRecord, NamesThePlaceOfAWrongValue) {

@@ -5,6 +5,7 @@
 #include "cslam/util/check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,29 @@ int CountWholeFrames(double duration_s, double fps) {
   return std::max(1, static_cast<int>(std::floor(duration_s * fps + 1e-9)));
 }
 
+bool IsOneOf(const std::string& name, const std::vector<std::string>& names) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+void RequireObjects(const World& world, const RenderRequest& request, std::string_view sequence) {
+  std::vector<std::string> known;
+  for (const SceneObject& object : world.scene.objects)
+    known.push_back(object.name);
+  for (const std::string& name : request.without) {
+    if (IsOneOf(name, known)) continue;
+    throw Error("'{}' has no object '{}' to leave out; there are: {}", sequence, name,
+                fmt::join(known, ", "));
+  }
+}
+
+World LeaveOut(World world, const RenderRequest& request, std::string_view sequence) {
+  RequireObjects(world, request, sequence);
+  return WithoutObjects(std::move(world), [&](const SceneObject& object) {
+    const bool is_unwanted_person = request.without_people && object.class_id == kPersonClassId;
+    return is_unwanted_person || IsOneOf(object.name, request.without);
+  });
+}
+
 double DurationS(const SequenceEntry& entry, const RenderRequest& request) {
   return request.is_short ? entry.short_duration_s : entry.duration_s;
 }
@@ -87,10 +111,12 @@ Rendering MakeRendering(const SequenceEntry& entry, const RenderRequest& request
     record.summary = entry.summary;
     record.is_short = request.is_short;
     record.without_people = request.without_people;
+    record.without = request.without;
     record.story_duration_s = DurationS(entry, request);
     return record;
   };
   if (entry.make == nullptr) {
+    if (!request.without.empty()) throw Error("nothing can be left out of '{}'", entry.name);
     SimulatedSequence sequence = MakeDemoSequence(options);
     RenderRecord record = describe(sequence);
     return {std::move(sequence), std::move(record)};
@@ -100,7 +126,7 @@ Rendering MakeRendering(const SequenceEntry& entry, const RenderRequest& request
                                    .texels_per_m = TexelsPerM(request.width)});
   const double duration_s = story.camera.duration_s;
   const PeopleClaim people = request.without_people ? PeopleClaim{} : story.people;
-  if (request.without_people) story.world = WithoutClass(std::move(story.world), kPersonClassId);
+  story.world = LeaveOut(std::move(story.world), request, entry.name);
   SimulatedSequence sequence = MakeSequence(std::move(story), options);
   RenderRecord record = describe(sequence);
   record.look = stage.props.look();
@@ -110,13 +136,16 @@ Rendering MakeRendering(const SequenceEntry& entry, const RenderRequest& request
 }
 
 std::string CommandOf(const RenderRecord& record) {
+  std::string without;
+  for (const std::string& name : record.without)
+    without += fmt::format(" --without '{}'", name);
   const bool is_whole = record.num_frames == CountWholeFrames(record.story_duration_s, record.fps);
   return fmt::format(
       "changing-slam dataset render {} --out DIR --seed {} --fps {} --size {}x{} --noise {} --look "
-      "{}{}{}{}",
+      "{}{}{}{}{}",
       record.sequence, record.seed, record.fps, record.width_px, record.height_px,
       NameOf(record.noise), record.look, record.is_short ? " --short" : "",
-      record.without_people ? " --without-people" : "",
+      record.without_people ? " --without-people" : "", without,
       is_whole ? "" : fmt::format(" --frames {}", record.num_frames));
 }
 

@@ -25,7 +25,8 @@ struct RenderRequest {
   int num_frames = 0;                // 0: the whole story; otherwise at most so many
   std::optional<SensorNoise> noise;  // none: that of the sequence's own sensor
   bool is_short = false;
-  bool without_people = false;  // what they carry moves all the same
+  bool without_people = false;       // what they carry moves all the same
+  std::vector<std::string> without;  // names of objects that are left out as well
 };
 
 // How many frames the whole story has, and how many of them are wanted.
@@ -38,7 +39,8 @@ struct Rendering {
   RenderRecord record;  // without program and command
 };
 
-// Makes the story's world and camera; deterministic. The demo needs no stage but takes any.
+// Makes the story's world and camera; deterministic. The demo needs no stage but takes any. Throws
+// Error where there is no object of a name that is to be left out.
 Rendering MakeRendering(const SequenceEntry& entry, const RenderRequest& request,
                         const Stage& stage);
 

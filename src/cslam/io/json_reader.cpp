@@ -79,11 +79,19 @@ JsonValue JsonValue::At(std::string_view key) const {
   return {*document_, &*found};
 }
 
-void JsonValue::RequireKeys(std::initializer_list<std::string_view> keys) const {
+bool JsonValue::Has(std::string_view key) const {
+  return NodeOf(node_).contains(key);
+}
+
+void JsonValue::RequireKeys(std::initializer_list<std::string_view> keys,
+                            std::initializer_list<std::string_view> optional) const {
+  const auto is_in = [](std::initializer_list<std::string_view> list, std::string_view key) {
+    return std::find(list.begin(), list.end(), key) != list.end();
+  };
   for (const std::string_view key : keys)
     At(key);
   for (const auto& [key, value] : NodeOf(node_).items()) {
-    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+    if (!is_in(keys, key) && !is_in(optional, key))
       Fail(fmt::format("unknown key '{}'", Excerpt(key)));
   }
 }

@@ -24,8 +24,10 @@ class JsonValue {
 
   // The object's value of that key, which must be there.
   JsonValue At(std::string_view key) const;
-  // The value is an object with these keys and no others.
-  void RequireKeys(std::initializer_list<std::string_view> keys) const;
+  bool Has(std::string_view key) const;  // false too for what is no object
+  // The value is an object with these keys, perhaps the optional ones, and no others.
+  void RequireKeys(std::initializer_list<std::string_view> keys,
+                   std::initializer_list<std::string_view> optional = {}) const;
   // The elements of an array.
   std::vector<JsonValue> Items() const;
   std::vector<JsonValue> Items(std::size_t count) const;  // exactly so many

@@ -40,11 +40,11 @@ Placement StateAt(const World& world, int instance, double time_s) {
   return {Presence::kResting, object.T_world_object};
 }
 
-World WithoutClass(World world, int class_id) {
+World WithoutObjects(World world, const std::function<bool(const SceneObject&)>& is_left_out) {
   World rest{.scene = std::move(world.scene), .timelines = {}, .animations = {}};
   std::vector<SceneObject> objects = std::exchange(rest.scene.objects, {});
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].class_id == class_id) continue;
+    if (is_left_out(objects[i])) continue;
     const auto before = static_cast<int>(i);
     const auto after = static_cast<int>(rest.scene.objects.size());
     rest.scene.objects.push_back(std::move(objects[i]));

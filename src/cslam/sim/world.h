@@ -66,8 +66,8 @@ struct World {
 // The same for an object of a world (not for animated ones, whose motion is the animation's).
 Placement StateAt(const World& world, int instance, double time_s);
 
-// The world without the objects of a class; the others keep their order, not their instance ids.
-World WithoutClass(World world, int class_id);
+// The world without some of its objects; the others keep their order, not their instance ids.
+World WithoutObjects(World world, const std::function<bool(const SceneObject&)>& is_left_out);
 
 // Times at which something comes to rest, leaves its place, appears or disappears, in order; the
 // world's resting part is the same between two of them.

@@ -66,7 +66,7 @@ TEST(TimesOfChange, ListsEveryStartAndEndOnce) {
   EXPECT_TRUE(TimesOfChange(World{}).empty());
 }
 
-TEST(WithoutClass, KeepsTheOthersWithWhatTheyDo) {
+TEST(WithoutObjects, KeepsTheOthersWithWhatTheyDo) {
   World world;
   world.scene.objects = {{"room", kNoClass, {}, {}},
                          {"first", 0, {}, {}},
@@ -78,7 +78,8 @@ TEST(WithoutClass, KeepsTheOthersWithWhatTheyDo) {
     world.animations[id] = [id](double) {
       return BodyShape{std::vector<Eigen::Vector3f>(static_cast<std::size_t>(id)), {}, {}};
     };
-  const World rest = WithoutClass(world, 0);
+  const World rest =
+      WithoutObjects(world, [](const SceneObject& object) { return object.class_id == 0; });
   ASSERT_EQ(rest.scene.objects.size(), 3U);
   EXPECT_EQ(rest.scene.objects[1].name, "box");
   EXPECT_EQ(rest.scene.objects[2].name, "dog");
