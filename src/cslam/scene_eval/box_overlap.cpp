@@ -7,22 +7,23 @@
 namespace cslam {
 namespace {
 
-constexpr int kPointsPerAxis = 24;
+constexpr int kNumPoints = 20000;
+// Additive recurrence with powers of the root of x^4 = x + 1: fills the unit cube evenly, and
+// unlike a grid has no planes of points that a box's side could coincide with.
+constexpr double kRoot = 1.22074408460575947536;
 
 // Share of a's volume that is in b.
 double ShareInside(const OrientedBox& a, const OrientedBox& b) {
   const Se3 T_b_a = b.T_world_box.Inverse() * a.T_world_box;
-  const auto at = [](int i) { return (i + 0.5) / kPointsPerAxis - 0.5; };
+  const Eigen::Array3d step(1.0 / kRoot, 1.0 / (kRoot * kRoot), 1.0 / (kRoot * kRoot * kRoot));
   int num_inside = 0;
-  for (int x = 0; x < kPointsPerAxis; ++x)
-    for (int y = 0; y < kPointsPerAxis; ++y)
-      for (int z = 0; z < kPointsPerAxis; ++z) {
-        const Eigen::Vector3d share(at(x), at(y), at(z));
-        const Eigen::Vector3d p = T_b_a * Eigen::Vector3d(share.cwiseProduct(a.size_m));
-        if (((p.cwiseAbs() - 0.5 * b.size_m).array() <= 0.0).all()) ++num_inside;
-      }
-  constexpr double kNumPoints = 1.0 * kPointsPerAxis * kPointsPerAxis * kPointsPerAxis;
-  return num_inside / kNumPoints;
+  for (int i = 0; i < kNumPoints; ++i) {
+    const Eigen::Array3d turn = 0.5 + static_cast<double>(i) * step;
+    const Eigen::Vector3d share = turn - turn.floor() - 0.5;
+    const Eigen::Vector3d p = T_b_a * Eigen::Vector3d(share.cwiseProduct(a.size_m));
+    if (((p.cwiseAbs() - 0.5 * b.size_m).array() <= 0.0).all()) ++num_inside;
+  }
+  return static_cast<double>(num_inside) / kNumPoints;
 }
 
 }  // namespace

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/scene_eval/object_eval.h"
+
+#include "cslam/scene_eval/test_scene.h"
+#include "cslam/util/check.h"
+#include "cslam/util/test_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace cslam {
+namespace {
+
+using test::Found;
+using test::kChair;
+using test::kTv;
+using test::kUmbrella;
+
+const Eigen::Vector3d kLeft(-0.8, 0.0, 3.0);
+const Eigen::Vector3d kRight(0.8, 0.0, 3.0);
+const Eigen::Vector3d kMiddle(0.0, 0.0, 3.0);
+
+test::TestWorld TwoThings() {
+  test::TestWorld world;
+  world.duration_s = 2.0;
+  world.stays = {{.instance = 1, .class_id = kChair, .center = kLeft},
+                 {.instance = 2, .class_id = kTv, .center = kRight}};
+  return world;
+}
+
+ObjectEvaluation Evaluate(const test::TestWorld& world, std::vector<FoundObject> found,
+                          const SceneEvalOptions& options = {}) {
+  const SceneTruth truth = test::TruthOf(world);
+  SceneRun run = test::RunOf(truth);
+  run.objects = std::move(found);
+  return EvaluateObjects(truth, run, options);
+}
+
+TEST(EvaluateObjects, GivesFullMarksToAPerfectMap) {
+  const ObjectEvaluation evaluation =
+      Evaluate(TwoThings(), {Found(7, kChair, kLeft), Found(8, kTv, kRight)});
+  EXPECT_EQ(evaluation.all.num_true, 2);
+  EXPECT_EQ(evaluation.all.F1(), 1.0);
+  EXPECT_EQ(evaluation.all.num_duplicates, 0);
+  EXPECT_NEAR(evaluation.all.centroid_error_m, 0.0, 1e-9);
+  EXPECT_NEAR(evaluation.all.box_iou, 1.0, 0.02);
+  EXPECT_NEAR(evaluation.all.axis_extent_iou, 1.0, 0.02);
+  EXPECT_EQ(evaluation.classes.at(kTv).F1(), 1.0);
+}
+
+TEST(EvaluateObjects, CountsMissingThingsAgainstRecall) {
+  const ObjectEvaluation evaluation = Evaluate(TwoThings(), {Found(7, kChair, kLeft)});
+  EXPECT_EQ(evaluation.all.Recall(), 0.5);
+  EXPECT_EQ(evaluation.all.Precision(), 1.0);
+  EXPECT_EQ(evaluation.classes.at(kTv).Recall(), 0.0);
+  EXPECT_FALSE(evaluation.classes.at(kTv).Precision());
+}
+
+TEST(EvaluateObjects, CountsASecondObjectForOneThingAsDuplicateAndFalse) {
+  const Eigen::Vector3d beside = kLeft + Eigen::Vector3d(0.3, 0.0, 0.0);
+  const ObjectEvaluation evaluation = Evaluate(
+      TwoThings(), {Found(6, kChair, beside), Found(7, kChair, kLeft), Found(8, kTv, kRight)});
+  EXPECT_EQ(evaluation.all.num_duplicates, 1);
+  EXPECT_EQ(evaluation.all.num_matched, 2);
+  EXPECT_EQ(evaluation.all.num_reported, 3);
+  EXPECT_EQ(evaluation.objects[0].verdict, ObjectVerdict::kDuplicate);
+  EXPECT_EQ(evaluation.objects[1].verdict, ObjectVerdict::kMatched) << "the nearer one";
+}
+
+TEST(EvaluateObjects, SaysWhatAThingOfTheWrongClassIs) {
+  const ObjectEvaluation evaluation =
+      Evaluate(TwoThings(), {Found(7, kTv, kLeft), Found(8, kTv, kRight)});
+  EXPECT_EQ(evaluation.all.num_matched, 1);
+  EXPECT_EQ(evaluation.objects[0].verdict, ObjectVerdict::kFalse);
+  EXPECT_EQ(evaluation.objects[0].confused_with, kChair);
+}
+
+TEST(EvaluateObjects, MatchesOnlyWithinTheDistance) {
+  const Eigen::Vector3d off = kLeft + Eigen::Vector3d(0.0, 0.0, 0.3);
+  EXPECT_EQ(Evaluate(TwoThings(), {Found(7, kChair, off)}).all.num_matched, 1);
+  EXPECT_EQ(Evaluate(TwoThings(), {Found(7, kChair, off)}, {.max_distance_m = 0.2}).all.num_matched,
+            0);
+}
+
+TEST(EvaluateObjects, LooksOnlyAtPresentObjectsOfClassesAskedFor) {
+  std::vector<FoundObject> found{Found(7, kChair, kLeft), Found(8, kUmbrella, kMiddle),
+                                 Found(9, kTv, kMiddle)};
+  found[2].report.state = "absent";
+  const ObjectEvaluation evaluation = Evaluate(TwoThings(), found, {.classes = {kChair}});
+  EXPECT_EQ(evaluation.all.F1(), 1.0);
+  EXPECT_EQ(evaluation.num_other_classes, 1);
+}
+
+TEST(EvaluateObjects, AsksForNothingThatWasNeverInView) {
+  test::TestWorld world = TwoThings();
+  const Eigen::Vector3d behind(0.0, 0.0, -3.0);
+  world.stays.push_back({.instance = 3, .class_id = kChair, .center = behind});
+  const ObjectEvaluation evaluation =
+      Evaluate(world, {Found(7, kChair, kLeft), Found(8, kTv, kRight), Found(9, kChair, behind)});
+  EXPECT_EQ(evaluation.all.num_true, 2);
+  EXPECT_EQ(evaluation.all.num_reported, 2) << "nor does it call wrong what is there unseen";
+  EXPECT_EQ(evaluation.objects[2].verdict, ObjectVerdict::kNotJudged);
+}
+
+TEST(EvaluateObjects, AsksForNothingThatIsHidden) {
+  test::TestWorld world = TwoThings();
+  world.stays.push_back({.instance = 3, .class_id = kChair, .center = 1.35 * kLeft});
+  EXPECT_EQ(Evaluate(world, {}).all.num_true, 2);
+}
+
+TEST(EvaluateObjects, CallsAnObjectFalseThatLeftInView) {
+  test::TestWorld world = TwoThings();
+  world.stays[0].to_s = 1.0;
+  const ObjectEvaluation evaluation =
+      Evaluate(world, {Found(7, kChair, kLeft), Found(8, kTv, kRight)});
+  EXPECT_EQ(evaluation.all.num_true, 1);
+  EXPECT_EQ(evaluation.objects[0].verdict, ObjectVerdict::kFalse);
+}
+
+TEST(EvaluateObjects, DoesNotJudgeWhatLeftWhileNobodyLooked) {
+  test::TestWorld world = TwoThings();
+  world.stays[0].to_s = 1.0;
+  world.yaw_rad = [](double time_s) { return time_s < 0.9 ? 0.0 : std::numbers::pi; };
+  const ObjectEvaluation evaluation =
+      Evaluate(world, {Found(7, kChair, kLeft), Found(8, kTv, kRight)});
+  EXPECT_EQ(evaluation.objects[0].verdict, ObjectVerdict::kNotJudged);
+  EXPECT_EQ(evaluation.all.F1(), 1.0);
+}
+
+TEST(EvaluateObjects, NeedsTheRunsObjects) {
+  const SceneTruth truth = test::TruthOf(TwoThings());
+  SceneRun run = test::RunOf(truth);
+  run.objects.reset();
+  EXPECT_THAT(MessageOf([&] { EvaluateObjects(truth, run); }), testing::HasSubstr("objects.json"));
+}
+
+}  // namespace
+}  // namespace cslam
