@@ -4,7 +4,8 @@
 
 #include "cslam/atlas_io/map_file.h"
 #include "cslam/io/trajectory_file.h"
-#include "cslam/run/frame_localiser.h"
+#include "cslam/pipeline/frame_localiser.h"
+#include "cslam/run/map_truth.h"
 #include "cslam/run/relocalisation_report.h"
 #include "cslam/semantics/make_detector.h"
 
@@ -63,7 +64,11 @@ RelocalisationReport FindAll(const DatasetReader& dataset, FrameLocaliser& local
       continue;
     }
     const LocalisedFrame found = localiser.Find(*loaded.frame);
-    report.frames.push_back({found, truth ? truth->ErrorOf(found) : std::nullopt});
+    RelocalisationReport::Frame frame{found, std::nullopt};
+    if (truth && found.T_world_camera) {
+      frame.error = truth->ErrorOf(found.map, found.stamp, *found.T_world_camera);
+    }
+    report.frames.push_back(std::move(frame));
   }
   return report;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cslam/run/frame_localiser.h"
+#include "cslam/pipeline/frame_localiser.h"
 
 #include <cstddef>
 #include <filesystem>

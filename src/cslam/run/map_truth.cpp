@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cslam/run/frame_localiser.h"
+#include "cslam/run/map_truth.h"
 
 #include "cslam/atlas_io/map_export.h"
 #include "cslam/eval/ate.h"
 #include "cslam/util/check.h"
-#include "cslam/util/stopwatch.h"
-#include "cslam/vision/depth_thumbnail.h"
 
 #include <fmt/format.h>
 
@@ -28,38 +26,6 @@ std::set<MapId> MapsOf(const MapView& map) {
 }
 
 }  // namespace
-
-FrameLocaliser::FrameLocaliser(std::shared_ptr<const MapSnapshot> map, const Camera& camera,
-                               const SlamOptions& options, std::unique_ptr<Detector> detector)
-    : map_(std::move(map)),
-      options_(options),
-      detector_(std::move(detector)),
-      observer_(camera, options_.tracking),
-      places_(camera, options.tracking.orb, options.tracking.depth, options.places) {
-  places_.Continue(*map_);
-}
-
-LocalisedFrame FrameLocaliser::Find(const RgbdFrame& frame) {
-  std::optional<Detections> detections;
-  if (detector_) detections = detector_->Detect(frame);
-  TrackingResult ignored;
-  observer_.Clear();
-  const auto data =
-      observer_.Observe(frame, std::nullopt, detections ? &*detections : nullptr, ignored);
-  data->depth_small_mm = observer_.RestingDepth(frame.depth_m);
-  const Stopwatch watch;
-  const PlaceHint hint = places_.Find(LostFrame{data}, *map_);
-  LocalisedFrame found;
-  found.frame = frame.id;
-  found.stamp = frame.stamp;
-  found.reason = hint.reason;
-  found.find_ms = watch.Elapsed().cpu_ms;
-  if (!hint.is_found) return found;
-  const Keyframe& reference = *map_->map.FindKeyframe(hint.reference);
-  found.T_world_camera = reference.T_world_camera * hint.T_reference_camera;
-  found.map = reference.map;
-  return found;
-}
 
 std::optional<Se3> PoseAt(const Trajectory& truth, Stamp stamp) {
   const PoseAssociationOptions options{.mode = PoseAssociationMode::kInterpolate};
@@ -84,11 +50,12 @@ MapTruth::MapTruth(const MapView& map, Trajectory truth) : truth_(std::move(trut
   }
 }
 
-std::optional<PoseDifference> MapTruth::ErrorOf(const LocalisedFrame& frame) const {
-  const auto alignment = alignments_.find(frame.map);
-  const auto truth = PoseAt(truth_, frame.stamp);
-  if (!frame.T_world_camera || !truth || alignment == alignments_.end()) return std::nullopt;
-  return Difference(*truth, Align(alignment->second, *frame.T_world_camera));
+std::optional<PoseDifference> MapTruth::ErrorOf(MapId map, Stamp stamp,
+                                                const Se3& T_world_camera) const {
+  const auto alignment = alignments_.find(map);
+  const auto truth = PoseAt(truth_, stamp);
+  if (!truth || alignment == alignments_.end()) return std::nullopt;
+  return Difference(*truth, Align(alignment->second, T_world_camera));
 }
 
 double MapTruth::KeyframeRmse() const {
