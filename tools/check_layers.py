@@ -29,6 +29,8 @@ LAYERS = {
     "actors": LOW | {"map", "io", "sim", "assets"},
     "dataset": LOW | {"map", "io", "sim", "assets", "actors"},
     "scene_eval": LOW | {"map", "io", "eval", "semantics", "sim", "assets", "actors", "dataset"},
+    "benchmark": LOW | {"map", "io", "eval", "semantics", "sim", "assets", "actors", "dataset",
+                        "scene_eval"},
     "semantics": LOW | {"map", "io"},
     "objects": LOW | {"map", "semantics"},
     "messages": LOW | {"map", "semantics", "objects"},
@@ -69,7 +71,7 @@ PRIVATE_LIBRARIES = {
     "embree3/": {"sim"},
     "yaml-cpp/": {"io"},
     "sqlite3": {"atlas_io"},
-    "nlohmann/": {"io", "eval", "scene_eval", "atlas_io", "pipeline"},
+    "nlohmann/": {"io", "eval", "scene_eval", "benchmark", "atlas_io", "pipeline"},
     "CLI/": set(),
     "opencv2/dnn": {"semantics"},
     "opencv2/imgproc": None,  # None: the .cpp files of every folder
