@@ -101,9 +101,9 @@ std::vector<MapObject::ClassVote> UnpackVotes(std::string_view bytes) {
   return votes;
 }
 
-std::string PackHistory(const std::vector<BeliefSample>& history) {
+std::string PackHistory(const std::vector<BeliefStep>& history) {
   ByteWriter writer(history.size() * kBeliefBytes);
-  for (const BeliefSample& sample : history) {
+  for (const BeliefStep& sample : history) {
     writer.Add(sample.stamp.ns);
     writer.Add(sample.belief);
     writer.Add(static_cast<std::uint8_t>(sample.cause));
@@ -111,10 +111,10 @@ std::string PackHistory(const std::vector<BeliefSample>& history) {
   return std::move(writer).Take();
 }
 
-std::vector<BeliefSample> UnpackHistory(std::string_view bytes) {
-  std::vector<BeliefSample> history(NumElements(bytes, kBeliefBytes));
+std::vector<BeliefStep> UnpackHistory(std::string_view bytes) {
+  std::vector<BeliefStep> history(NumElements(bytes, kBeliefBytes));
   ByteReader reader(bytes);
-  for (BeliefSample& sample : history) {
+  for (BeliefStep& sample : history) {
     sample.stamp = Stamp{reader.Next<std::int64_t>()};
     sample.belief = NextFinite(reader);
     const auto cause = reader.Next<std::uint8_t>();

@@ -31,12 +31,12 @@ const char* ToString(ObjectState state);
 enum class BeliefCause : std::uint8_t { kCreated, kSeen, kMissed, kLookedThrough, kMerged };
 const char* ToString(BeliefCause cause);
 
-struct BeliefSample {
+struct BeliefStep {
   Stamp stamp;
   float belief = 0.5F;
   BeliefCause cause = BeliefCause::kCreated;
 
-  bool operator==(const BeliefSample&) const = default;
+  bool operator==(const BeliefStep&) const = default;
 };
 
 // A cell of an object's surface that depth was measured in.
@@ -98,7 +98,7 @@ struct MapObject {
   std::uint32_t first_session = 0;
   std::uint32_t last_session = 0;
   std::int32_t num_sightings = 0;  // keyframes in which it was detected
-  std::vector<BeliefSample> history;
+  std::vector<BeliefStep> history;
 
   bool IsAlive() const { return state < ObjectState::kMerged; }
 };

@@ -62,6 +62,17 @@ void FixGauge(const Map& map, const Selection& selection, BaProblem& problem) {
   if (!has_fixed) problem.pose_is_fixed[oldest] = 1;
 }
 
+// Points that take no part move with their reference keyframe.
+void MoveHeldBack(Map& map, KeyframeId keyframe, const Se3& T_new_old) {
+  const std::vector<PointId> points = map.FindKeyframe(keyframe)->points;
+  for (const PointId id : points) {
+    const MapPoint* point = id.valid() ? map.FindPoint(id) : nullptr;
+    if (point == nullptr || !point->is_held_back || point->reference != keyframe) continue;
+    map.SetPosition(id, T_new_old * point->p_world);
+    map.RefreshGeometry(id);
+  }
+}
+
 }  // namespace
 
 LocalBaReport AdjustLocally(Map& map, KeyframeId center, const Camera& camera,
@@ -75,8 +86,11 @@ LocalBaReport AdjustLocally(Map& map, KeyframeId center, const Camera& camera,
   const BaResult result = AdjustBundle(problem, options.solver, should_stop);
 
   for (std::size_t i = 0; i < selection.num_free; ++i) {
-    if (problem.pose_is_fixed[i] == 0)
-      map.SetPose(selection.keyframes[i], result.T_world_camera[i]);
+    if (problem.pose_is_fixed[i] != 0) continue;
+    const KeyframeId id = selection.keyframes[i];
+    const Se3 T_new_old = result.T_world_camera[i] * map.FindKeyframe(id)->T_world_camera.Inverse();
+    map.SetPose(id, result.T_world_camera[i]);
+    MoveHeldBack(map, id, T_new_old);
   }
   LocalBaReport report;
   for (std::size_t i = 0; i < problem.observations.size(); ++i) {

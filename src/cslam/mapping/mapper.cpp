@@ -43,12 +43,14 @@ Mapper::Mapper(const Camera& camera, const OrbOptions& orb, const DepthOptions& 
       depth_(depth),
       options_(options),
       model_(LevelScales(orb), depth.disparity_sigma_px),
-      map_(model_.level_scales()) {}
+      map_(model_.level_scales()),
+      objects_(camera_, depth_, options_, model_) {}
 
 void Mapper::Reset() {
   map_.Clear();
   newest_ = KeyframeId();
   on_probation_.clear();
+  objects_.Reset();
 }
 
 MapUpdate Mapper::Continue(Map map) {
@@ -103,6 +105,10 @@ MapUpdate Mapper::Insert(const KeyframeProposal& proposal) {
 
   update.points_created = static_cast<int>(created.size());
   AddLap(update.times, "insert", watch);
+  const ObjectLayerReport objects = objects_.Update(map_, proposal);
+  update.objects_found = objects.num_new;
+  update.objects_changed = objects.num_changed;
+  AddLap(update.times, "objects", watch);
   return Publish(std::move(update));
 }
 
@@ -120,6 +126,7 @@ MapUpdate Mapper::Refine(const std::function<bool()>& should_stop) {
   const auto created = TriangulatePoints(map_, newest_, camera_, model_, options_.min_shared_points,
                                          options_.triangulation);
   on_probation_.insert(on_probation_.end(), created.begin(), created.end());
+  objects_.AssignPoints(map_, newest_, created);
   update.points_created = static_cast<int>(created.size());
   AddLap(update.times, "triangulate", watch);
 
@@ -142,7 +149,9 @@ MapUpdate Mapper::Refine(const std::function<bool()>& should_stop) {
 
 MapUpdate Mapper::Apply(const MapCorrection& correction) {
   Stopwatch watch;
-  return Publish(ApplyCorrection(map_, correction), watch);
+  CorrectionReport report = ApplyCorrection(map_, correction);
+  if (report.is_applied()) objects_.MergeAllDoubles(map_);
+  return Publish(std::move(report), watch);
 }
 
 MapUpdate Mapper::Apply(const PoseRefinement& refinement) {

@@ -4,6 +4,7 @@
 
 #include "cslam/map/map.h"
 #include "cslam/mapping/mapper_options.h"
+#include "cslam/mapping/object_layer.h"
 #include "cslam/messages/messages.h"
 #include "cslam/vision/measurement_model.h"
 
@@ -52,6 +53,7 @@ class Mapper {
   const MeasurementModel model_;
 
   Map map_;
+  ObjectLayer objects_;
   KeyframeId newest_;  // inserted last
   std::vector<PointId> on_probation_;
   std::uint64_t revision_ = 0;

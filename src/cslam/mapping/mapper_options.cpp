@@ -69,6 +69,7 @@ void Describe(OptionList& list, MapperOptions& o) {
   list.Group("fusion", o.fusion);
   list.Group("culling", o.culling);
   list.Group("local_ba", o.local_ba);
+  list.Group("objects", o.objects);
   list.Add("check_invariants", o.check_invariants,
            "Recheck the whole map after every commit (slow; always on in debug builds).");
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/mapping/object_options.h"
 #include "cslam/optim/bundle_adjuster.h"
 #include "cslam/vision/frame_features.h"
 #include "cslam/vision/orb.h"
@@ -54,6 +55,7 @@ struct MapperOptions {
   FusionOptions fusion;
   CullingOptions culling;
   LocalBaOptions local_ba;
+  MapObjectOptions objects;
   bool check_invariants = false;
 };
 void Describe(OptionList& list, MapperOptions& options);

@@ -43,6 +43,8 @@ const char* ToString(KeyframeReason reason) {
       return "reference_lost";
     case KeyframeReason::kNearPointsNeeded:
       return "near_points_needed";
+    case KeyframeReason::kObjectChanged:
+      return "object_changed";
   }
   return "unknown";
 }

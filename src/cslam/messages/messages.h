@@ -37,12 +37,13 @@ enum class KeyframeReason : std::uint8_t {
   kNotNeeded,
   kNotTracking,
   kLocaliseOnly,  // asked for nothing but the pose
-  kFewInliers,  // too few inliers to trust the frame
-  kMapperBusy,  // one would be useful, but enough proposals are in flight
+  kFewInliers,    // too few inliers to trust the frame
+  kMapperBusy,    // one would be useful, but enough proposals are in flight
   kStartsMap,
   kTooLongAgo,        // the last keyframe is max_interval frames back
   kReferenceLost,     // the view has moved away from the reference keyframe
   kNearPointsNeeded,  // few near points are tracked and many could be made
+  kObjectChanged,     // what was seen of an object is about to change the belief in it
 };
 const char* ToString(KeyframeReason reason);
 inline bool IsProposal(KeyframeReason reason) {
@@ -56,6 +57,24 @@ struct PointSightings {
   std::int32_t found = 0;
 };
 
+// What frames since the previous proposal say about one object of the map.
+struct ObjectEvidence {
+  ObjectId object;
+  double log_ratio = 0.0;        // sum over views of log(p(Y|H=1) / p(Y|H=0))
+  std::int32_t num_seen = 0;     // views in which it was detected at its place
+  std::int32_t num_missed = 0;   // it stood in plain view and was not
+  std::int32_t num_through = 0;  // its place was looked through
+  std::optional<Stamp> first_through;
+  std::optional<Stamp> last_seen;
+};
+
+// What a keyframe's frame shows of objects: sightings, and the depth they were seen in.
+struct KeyframeObjects {
+  DepthView view;
+  std::vector<ObjectSighting> sightings;
+  std::vector<ObjectEvidence> evidence;
+};
+
 // tracker -> mapper. The tracker hands out keyframe ids: it alone proposes.
 struct KeyframeProposal {
   KeyframeId id;
@@ -66,6 +85,7 @@ struct KeyframeProposal {
   Se3 T_reference_camera;                 // relative to reference; to the world for a new map
   std::vector<PointId> matches;           // one per keypoint; invalid = none. Stale ids are normal
   std::vector<PointSightings> sightings;  // since the previous proposal
+  KeyframeObjects objects;
 };
 
 // mapper -> everyone: one revision of the map. The newest wins.
@@ -123,6 +143,8 @@ struct MapUpdate {
   int points_fused = 0;
   int points_culled = 0;
   int keyframes_culled = 0;
+  int objects_found = 0;    // new ones
+  int objects_changed = 0;  // activated, gone, merged or back
   int ba_iterations = 0;
   bool ba_was_stopped = false;
   std::optional<CorrectionReport> correction;  // of a loop, a merge or a full bundle adjustment

@@ -22,10 +22,25 @@ void CheckOptions(const Camera& camera, SlamOptions options) {
 
 }  // namespace
 
-Slam::Slam(const Camera& camera, const SlamOptions& options, Execution execution,
+namespace {
+
+// Tracker and mapper go by the same knowledge of objects; the user gives it once.
+SlamOptions WithSharedKnowledge(SlamOptions options) {
+  options.tracking.watch.enabled =
+      options.tracking.watch.enabled && options.mapping.objects.enabled;
+  options.tracking.watch.classes = options.mapping.objects.classes;
+  options.tracking.watch.belief = options.mapping.objects.belief;
+  options.tracking.watch.view = options.mapping.objects.view;
+  return options;
+}
+
+}  // namespace
+
+Slam::Slam(const Camera& camera, const SlamOptions& given, Execution execution,
            std::vector<std::shared_ptr<OutputSink>> sinks, FeedPolicy feed_policy,
            std::unique_ptr<Detector> detector)
     : camera_(camera) {
+  const SlamOptions options = WithSharedKnowledge(given);
   CheckOptions(camera, options);
   cv::setNumThreads(options.pipeline.library_threads);
   if (execution == Execution::kInline) {

@@ -23,6 +23,16 @@ struct ColourSource {
 };
 using SourcesByKeyframe = std::map<KeyframeId, std::vector<ColourSource>>;
 
+// Bright, and far from that of the next id: steps of the golden angle round the circle of hues.
+std::array<std::uint8_t, 3> ColourOfObject(ObjectId id) {
+  const double hue = 6.0 * std::fmod(0.381966 * id.value() + 0.02, 1.0);
+  const auto channel = [&](double offset) {
+    const double x = std::fmod(hue + offset, 6.0);
+    return static_cast<std::uint8_t>(255.0 * std::clamp(std::abs(x - 3.0) - 1.0, 0.0, 1.0));
+  };
+  return {channel(0.0), channel(4.0), channel(2.0)};
+}
+
 // The observation in the reference keyframe, else the first one.
 const PointObservation* FindBestObservation(const MapPoint& point) {
   if (point.observations.empty()) return nullptr;
@@ -69,7 +79,11 @@ std::vector<ColoredPoint> ColourMap(const RunResult& result, const DatasetReader
   SourcesByKeyframe sources;
   for (std::size_t i = 0; i < view.num_point_ids(); ++i) {
     const MapPoint* const point = view.FindPoint(PointId(static_cast<std::uint32_t>(i)));
-    if (point == nullptr || !point->IsActive() || point->map != map) continue;
+    if (point == nullptr || !IsUsable(*point) || point->map != map) continue;
+    if (point->object.valid()) {
+      cloud.push_back({point->p_world.cast<float>(), ColourOfObject(point->object)});
+      continue;
+    }
     const PointObservation* const seen = FindBestObservation(*point);
     const Keyframe* const keyframe = seen == nullptr ? nullptr : view.FindKeyframe(seen->keyframe);
     if (keyframe != nullptr && IsOfThisRun(view, keyframe->id)) {

@@ -10,7 +10,8 @@
 
 namespace cslam {
 
-// The points of the map that holds most frames, by id. Each takes its colour from the pixel in
+// The usable points of the map that holds most frames, by id. Those of an object have the bright
+// colour of its id. All others take theirs from the pixel in
 // which its reference keyframe sees it; that image is read from the data set again. Points whose
 // image cannot be read are grey.
 std::vector<ColoredPoint> ColourMap(const RunResult& result, const DatasetReader& dataset);

@@ -10,6 +10,7 @@
 #include "cslam/run/frames_csv.h"
 #include "cslam/run/loops_json.h"
 #include "cslam/run/map_cloud.h"
+#include "cslam/run/object_report.h"
 #include "cslam/run/run_json.h"
 #include "cslam/util/atomic_file.h"
 #include "cslam/util/check.h"
@@ -109,6 +110,13 @@ void WriteRunFolder(const RunReport& report, const RunOutcome& outcome,
       [&] { WriteFileAtomically(folder / "frames.csv", FormatFramesCsv(outcome.log.frames)); });
   steps.Run(
       [&] { WriteFileAtomically(folder / "loops.json", FormatLoopsJson(outcome.log.loops)); });
+  const std::string sequence = SequenceName(report.identity.sequence);
+  steps.Run([&] {
+    WriteReportedObjects(folder / "objects.json", ReportObjects(outcome.result, sequence));
+  });
+  steps.Run([&] {
+    WriteReportedChanges(folder / "changes.json", ReportChanges(outcome.result, sequence));
+  });
   steps.Run([&] {
     WritePointCloud(folder / "map.ply", ColourMap(outcome.result, dataset),
                     "map points, metres, world frame of trajectory.txt");

@@ -3,12 +3,43 @@
 #include "cslam/tracking/frame_matches.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace cslam {
 
 int CountMatches(const FrameMatches& matches, Landmark::Kind kind) {
   return static_cast<int>(std::count_if(matches.begin(), matches.end(),
                                         [&](const Landmark& m) { return m.kind == kind; }));
+}
+
+FrameMatches TakeHeldBack(FrameMatches& matches) {
+  FrameMatches taken(matches.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i].is_held_back) taken[i] = std::exchange(matches[i], Landmark{});
+  }
+  return taken;
+}
+
+void KeepAgreeing(const FrameMatches& held_back, const FrameFeatures& features,
+                  const Camera& camera, double baseline_m, const MeasurementModel& model,
+                  const PoseOptimizerOptions& options, PoseEstimate& estimate) {
+  const Se3 T_camera_world = estimate.T_world_camera.Inverse();
+  for (std::size_t i = 0; i < held_back.size(); ++i) {
+    if (held_back[i].kind == Landmark::Kind::kNone) continue;
+    const Keypoint& keypoint = features.keypoints[i];
+    const Eigen::Vector3d p_camera = T_camera_world * held_back[i].p_world;
+    if (p_camera.z() <= 0.0) continue;
+    const Eigen::Vector2d error = Project(camera, p_camera) - keypoint.uv_px.cast<double>();
+    double chi2 = error.squaredNorm() * model.information_px(keypoint.octave);
+    if (keypoint.HasDepth()) {
+      const double disparity_error =
+          camera.fx * baseline_m / p_camera.z() - static_cast<double>(keypoint.disparity_px);
+      chi2 += disparity_error * disparity_error * model.information_disparity(keypoint.octave);
+    }
+    if (chi2 <= (keypoint.HasDepth() ? options.chi2_depth : options.chi2_mono)) {
+      estimate.matches[i] = held_back[i];
+    }
+  }
 }
 
 std::vector<PointId> PointIds(const FrameMatches& matches) {

@@ -18,13 +18,24 @@ struct Landmark {
     kProvisional,  // a depth reading of the last frame, not in the map (yet)
   };
   Kind kind = Kind::kNone;
-  PointId point;  // of a map point
+  PointId point;              // of a map point
+  bool is_held_back = false;  // by its object: no part of a pose while the room suffices
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();
 };
 
 using FrameMatches = std::vector<Landmark>;  // one per keypoint
 
 int CountMatches(const FrameMatches& matches, Landmark::Kind kind);
+
+// Takes those of held-back points out of matches. Returns them, kNone elsewhere.
+FrameMatches TakeHeldBack(FrameMatches& matches);
+
+// Puts those back whose reprojection agrees with the pose (chi2 gates of the options): they are
+// seen, though they had no say.
+struct PoseEstimate;
+void KeepAgreeing(const FrameMatches& held_back, const FrameFeatures& features,
+                  const Camera& camera, double baseline_m, const MeasurementModel& model,
+                  const PoseOptimizerOptions& options, PoseEstimate& estimate);
 
 // The ids of the map points, one per keypoint; invalid where there is none.
 std::vector<PointId> PointIds(const FrameMatches& matches);

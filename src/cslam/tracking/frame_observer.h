@@ -41,6 +41,9 @@ class FrameObserver {
   // The reduced depth image a keyframe keeps: without people and what moves.
   cv::Mat RestingDepth(const cv::Mat& depth_m) const;
 
+  // The tracked things of the frame.
+  const ObjectTracker& objects() const { return objects_; }
+
   // Closes the frame. T_world_camera: its pose, or nothing if it was not found.
   void Settle(const std::optional<Se3>& T_world_camera, TrackingResult& result);
 

@@ -102,7 +102,7 @@ std::vector<ExpectedPoint> ExpectPoints(const MapView& map, std::span<const Poin
                                         const Se3& T_world_camera, const Camera& camera,
                                         const ImageBounds& bounds, double baseline_m,
                                         const MeasurementModel& model,
-                                        const LocalMapOptions& options) {
+                                        const LocalMapOptions& options, HeldBack held_back) {
   constexpr double kDistanceSlack = 0.2;  // the scale limits are estimates from one view
   constexpr double kFrontalCosine = 0.998;
   const double min_cosine = std::cos(options.max_view_angle_deg * std::numbers::pi / 180.0);
@@ -111,7 +111,8 @@ std::vector<ExpectedPoint> ExpectPoints(const MapView& map, std::span<const Poin
   std::vector<ExpectedPoint> expected;
   for (const PointId id : points) {
     const MapPoint* point = map.FindPoint(id);
-    if (point == nullptr || !IsUsable(*point)) continue;
+    if (point == nullptr) continue;
+    if (held_back == HeldBack::kLeaveOut && !IsUsable(*point)) continue;
     const Eigen::Vector3d offset = point->p_world - center;
     const Eigen::Vector3d p_camera = R_camera_world * offset;
     if (p_camera.z() <= 0.05) continue;
@@ -130,6 +131,7 @@ std::vector<ExpectedPoint> ExpectPoints(const MapView& map, std::span<const Poin
         cosine > kFrontalCosine ? options.radius_frontal_px : options.radius_oblique_px;
     ExpectedPoint e;
     e.point = id;
+    e.is_held_back = !IsUsable(*point);
     e.query.uv_px = uv.cast<float>();
     e.query.disparity_px = static_cast<float>(camera.fx * baseline_m / p_camera.z());
     e.query.radius_px = static_cast<float>(options.radius_factor * radius * model.scale(octave));

@@ -27,7 +27,10 @@ LocalMap SelectLocalMap(const MapView& map, std::span<const PointId> matched, Ke
 struct ExpectedPoint {
   PointId point;
   ProjectionQuery query;
+  bool is_held_back = false;  // by an object that is not believed in: IsUsable() is false
 };
+
+enum class HeldBack : std::uint8_t { kLeaveOut, kInclude };
 
 // Those of the points that lie in front of the camera and inside the image, at a distance and an
 // angle from which their descriptor can be recognised.
@@ -35,6 +38,7 @@ std::vector<ExpectedPoint> ExpectPoints(const MapView& map, std::span<const Poin
                                         const Se3& T_world_camera, const Camera& camera,
                                         const ImageBounds& bounds, double baseline_m,
                                         const MeasurementModel& model,
-                                        const LocalMapOptions& options);
+                                        const LocalMapOptions& options,
+                                        HeldBack held_back = HeldBack::kLeaveOut);
 
 }  // namespace cslam

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace cslam {
 namespace {
@@ -22,6 +24,26 @@ std::vector<PointId> PointsOf(const Keyframe& keyframe) {
     if (id.valid()) points.push_back(id);
   }
   return points;
+}
+
+// Whether a camera can have moved like this in the time.
+bool CanHaveMoved(const Se3& T_world_before, const Se3& T_world_after, double time_s,
+                  const TrackerOptions& options) {
+  const PoseDifference way = Difference(T_world_before, T_world_after);
+  const double max_angle_deg = options.max_jump_deg + options.max_turn_deg_s * time_s;
+  return way.distance_m <= options.max_jump_m + options.max_speed_m_s * time_s &&
+         way.angle_rad <= max_angle_deg * std::numbers::pi / 180.0;
+}
+
+Landmark MapLandmark(const MapPoint& point) {
+  return {Landmark::Kind::kMapPoint, point.id, !IsUsable(point), point.p_world};
+}
+
+int CountUsable(const MapView& map, const std::vector<PointId>& points) {
+  return static_cast<int>(std::count_if(points.begin(), points.end(), [&](PointId id) {
+    const MapPoint* point = id.valid() ? map.FindPoint(id) : nullptr;
+    return point != nullptr && IsUsable(*point);
+  }));
 }
 
 bool IsNear(const Keypoint& keypoint, const DepthOptions& options) {
@@ -51,7 +73,8 @@ Tracker::Tracker(const Camera& camera, const TrackerOptions& options)
       bounds_(UndistortedBounds(camera)),
       options_(options),
       model_(LevelScales(options.orb), options.depth.disparity_sigma_px),
-      observer_(camera_, options_) {}
+      observer_(camera_, options_),
+      watch_(options.watch) {}
 
 void Tracker::Reset() {
   ForgetMap();
@@ -71,6 +94,7 @@ void Tracker::ForgetMap() {
   searches_since_.reset();
   map_ = MapId();
   history_.Clear();
+  watch_.Clear();
   last_data_.reset();
   last_points_.clear();
   velocity_.reset();
@@ -95,6 +119,9 @@ TrackerOutput Tracker::Process(const RgbdFrame& frame,
   }
   if (!current.is_tracked && MayStartMap(current)) StartMap(current);
   if (current.is_tracked && !current.proposal) {
+    Stopwatch watch;
+    WatchObjects(current, detections);
+    AddLap(current.result.times, "objects", watch);
     current.result.keyframe_reason = DecideKeyframe(current);
     if (IsProposal(current.result.keyframe_reason)) {
       current.proposal = Propose(current, current.result.keyframe_reason);
@@ -160,16 +187,20 @@ bool Tracker::EstimateFromMotion(CurrentFrame& current) {
   const FrameFeatures& last = last_data_->features;
   std::vector<Landmark> landmarks;
   std::vector<ProjectionQuery> queries;
+  const bool use_held_back =
+      CountUsable(snapshot_->map, last_points_) < options_.use_held_back_below;
   for (std::size_t i = 0; i < last.size(); ++i) {
     Landmark landmark;
     const auto id =
         last_points_[i].valid() ? snapshot_->map.Resolve(last_points_[i]) : std::nullopt;
     if (id) {
-      landmark = {Landmark::Kind::kMapPoint, *id, snapshot_->map.FindPoint(*id)->p_world};
+      const MapPoint& point = *snapshot_->map.FindPoint(*id);
+      if (!IsUsable(point) && !use_held_back) continue;
+      landmark = MapLandmark(point);
     } else if (IsNear(last.keypoints[i], options_.depth)) {
       const Eigen::Vector3d p_last = Unproject(camera_, last.keypoints[i].uv_px.cast<double>(),
                                                static_cast<double>(last.keypoints[i].depth_m));
-      landmark = {Landmark::Kind::kProvisional, PointId(), *current.T_world_last * p_last};
+      landmark = {Landmark::Kind::kProvisional, PointId(), false, *current.T_world_last * p_last};
     } else {
       continue;
     }
@@ -254,7 +285,7 @@ bool Tracker::EstimateFromPlace(CurrentFrame& current, const PlaceHint& hint) {
   FrameMatches matches(current.features().size());
   for (const Match& match : found) {
     const PointId id = expected[Index(match.query)].point;
-    matches[Index(match.keypoint)] = {Landmark::Kind::kMapPoint, id, map.FindPoint(id)->p_world};
+    matches[Index(match.keypoint)] = MapLandmark(*map.FindPoint(id));
   }
   current.estimate =
       EstimatePose(current.features(), std::move(matches), T_world_camera, Provisional::kIgnore,
@@ -284,12 +315,15 @@ bool Tracker::EstimateFromReference(CurrentFrame& current) {
   FrameMatches matches(current.features().size());
   for (const Match& match : found) {
     const MapPoint& point = *snapshot_->map.FindPoint(reference.points[Index(match.query)]);
-    matches[Index(match.keypoint)] = {Landmark::Kind::kMapPoint, point.id, point.p_world};
+    matches[Index(match.keypoint)] = MapLandmark(point);
   }
   current.estimate =
       EstimatePose(current.features(), std::move(matches), *current.T_world_last,
                    Provisional::kIgnore, camera_, options_.depth.baseline_m, model_, options_.pose);
-  return current.estimate.num_inliers() >= options_.min_first_inliers;
+  // What looks alike, like two shelves of a kind, pulls the pose to where the other one stands.
+  return current.estimate.num_inliers() >= options_.min_first_inliers &&
+         CanHaveMoved(*current.T_world_last, current.estimate.T_world_camera, current.since_last_s,
+                      options_);
 }
 
 // Keypoints on things that move though nobody named them go, with their matches.
@@ -315,8 +349,9 @@ void Tracker::RefineWithLocalMap(CurrentFrame& current) {
   const LocalMap local =
       SelectLocalMap(map, PointIds(matches), history_.reference(), options_.local_map);
   current.reference = local.reference.valid() ? local.reference : history_.reference();
-  current.expected = ExpectPoints(map, local.points, current.estimate.T_world_camera, camera_,
-                                  bounds_, options_.depth.baseline_m, model_, options_.local_map);
+  current.expected =
+      ExpectPoints(map, local.points, current.estimate.T_world_camera, camera_, bounds_,
+                   options_.depth.baseline_m, model_, options_.local_map, HeldBack::kInclude);
 
   std::vector<std::uint8_t> is_taken(matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -332,8 +367,9 @@ void Tracker::RefineWithLocalMap(CurrentFrame& current) {
                                        is_taken);
   for (const Match& match : found) {
     const PointId id = current.expected[Index(match.query)].point;
-    matches[Index(match.keypoint)] = {Landmark::Kind::kMapPoint, id, map.FindPoint(id)->p_world};
+    matches[Index(match.keypoint)] = MapLandmark(*map.FindPoint(id));
   }
+  const FrameMatches held_back = SetHeldBackAside(current.features(), matches);
 
   const int num_map_matches = CountMatches(matches, Landmark::Kind::kMapPoint);
   current.result.num_map_matches = num_map_matches;
@@ -342,6 +378,39 @@ void Tracker::RefineWithLocalMap(CurrentFrame& current) {
   current.estimate =
       EstimatePose(current.features(), std::move(matches), current.estimate.T_world_camera,
                    provisional, camera_, options_.depth.baseline_m, model_, options_.pose);
+  KeepAgreeing(held_back, current.features(), camera_, options_.depth.baseline_m, model_,
+               options_.pose, current.estimate);
+}
+
+// Points of objects that are not believed in have no say while the room suffices; otherwise those
+// on things that rest at present do. Returns those without a say.
+FrameMatches Tracker::SetHeldBackAside(const FrameFeatures& features, FrameMatches& matches) const {
+  FrameMatches held_back = TakeHeldBack(matches);
+  if (CountMatches(matches, Landmark::Kind::kMapPoint) >= options_.use_held_back_below) {
+    return held_back;
+  }
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (held_back[i].kind != Landmark::Kind::kNone &&
+        features.semantics[i].label == KeypointLabel::kMovable) {
+      matches[i] = std::exchange(held_back[i], Landmark{});
+    }
+  }
+  return held_back;
+}
+
+// What the frame says about the objects of the map.
+void Tracker::WatchObjects(const CurrentFrame& current, const Detections* detections) {
+  if (mode_ == TrackingMode::kLocaliseOnly || !options_.objects.enabled) return;
+  const std::vector<ObjectSighting> sightings = observer_.objects().Sightings();
+  WatchedFrame frame;
+  frame.stamp = current.data->stamp;
+  frame.map = map_;
+  frame.T_world_camera = current.estimate.T_world_camera;
+  frame.num_inliers = current.estimate.num_inliers();
+  frame.view = &observer_.objects().view();
+  frame.sightings = sightings;
+  if (detections != nullptr) frame.detections = detections->stamp;
+  watch_.Look(frame, snapshot_->map);
 }
 
 void Tracker::CountSightings(const CurrentFrame& current) {
@@ -409,7 +478,12 @@ KeyframeReason Tracker::DecideKeyframe(const CurrentFrame& current) const {
     const bool is_map_point = current.estimate.matches[i].kind == Landmark::Kind::kMapPoint;
     ++(is_map_point ? input.near_tracked : input.near_creatable);
   }
-  return ChooseKeyframe(input, options_.keyframe);
+  const KeyframeReason reason = ChooseKeyframe(input, options_.keyframe);
+  const bool is_free = input.proposals_in_flight < options_.keyframe.max_in_flight &&
+                       input.num_inliers >= options_.min_inliers;
+  return reason == KeyframeReason::kNotNeeded && is_free && watch_.HasNews(map)
+             ? KeyframeReason::kObjectChanged
+             : reason;
 }
 
 bool Tracker::MayStartMap(const CurrentFrame& current) {
@@ -445,6 +519,17 @@ void Tracker::StartMap(CurrentFrame& current) {
   current.proposal = Propose(current, KeyframeReason::kStartsMap);
 }
 
+KeyframeObjects Tracker::TakeObjects(const CurrentFrame& current) {
+  if (!options_.objects.enabled || !options_.watch.enabled) return {};
+  KeyframeObjects objects;
+  objects.view = observer_.objects().view();
+  objects.sightings = observer_.objects().Sightings();
+  for (ObjectSighting& sighting : objects.sightings)
+    sighting.colours = ColoursOf(current.frame->bgr, sighting.region);
+  objects.evidence = watch_.Take();
+  return objects;
+}
+
 KeyframeProposal Tracker::Propose(CurrentFrame& current, KeyframeReason reason) {
   current.data->depth_small_mm = observer_.RestingDepth(current.frame->depth_m);
   KeyframeProposal proposal;
@@ -460,6 +545,7 @@ KeyframeProposal Tracker::Propose(CurrentFrame& current, KeyframeReason reason) 
   proposal.T_reference_camera = T_world_reference.Inverse() * current.estimate.T_world_camera;
   proposal.matches = PointIds(current.estimate.matches);
   proposal.sightings = TakeSightings();
+  proposal.objects = TakeObjects(current);
   history_.AddPending(proposal.id, proposal.reference, proposal.T_reference_camera);
   ++proposals_sent_;
   frames_since_keyframe_ = 0;
@@ -496,7 +582,10 @@ TrackerOutput Tracker::Report(CurrentFrame& current) {
     result.num_inliers = current.estimate.num_inliers();
   }
   std::optional<LostFrame> lost;
-  if (!current.is_tracked && snapshot_->map.num_keyframes() > 0) lost = LostFrame{current.data};
+  if (!current.is_tracked && snapshot_->map.num_keyframes() > 0) {
+    current.data->depth_small_mm = observer_.RestingDepth(current.frame->depth_m);
+    lost = LostFrame{current.data};
+  }
   return {std::move(result), std::move(current.proposal), std::move(lost)};
 }
 

@@ -58,6 +58,9 @@ class Tracker {
   void Relocalise(CurrentFrame& current, const PlaceHint& hint);
   void FollowMerges();
   void RefineWithLocalMap(CurrentFrame& current);
+  FrameMatches SetHeldBackAside(const FrameFeatures& features, FrameMatches& matches) const;
+  void WatchObjects(const CurrentFrame& current, const Detections* detections);
+  KeyframeObjects TakeObjects(const CurrentFrame& current);
   void CountSightings(const CurrentFrame& current);
   void FailToTrack(CurrentFrame& current, std::string reason);
   KeyframeReason DecideKeyframe(const CurrentFrame& current) const;
@@ -74,6 +77,7 @@ class Tracker {
   const TrackerOptions options_;
   const MeasurementModel model_;
   FrameObserver observer_;
+  ObjectWatch watch_;
 
   std::shared_ptr<const MapSnapshot> snapshot_;
   TrackingMode mode_ = TrackingMode::kMapping;

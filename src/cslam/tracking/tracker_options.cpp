@@ -51,6 +51,7 @@ void Describe(OptionList& list, TrackerOptions& o) {
   list.Group("keyframe", o.keyframe);
   list.Group("local_map", o.local_map);
   list.Group("objects", o.objects);
+  list.Group("watch", o.watch);
   list.Add("repopulate_below", o.repopulate_below, {0, 100'000}, "keypoints",
            "With fewer keypoints off dynamic things, more are taken from the background.");
   list.Add("report_keypoints", o.report_keypoints,
@@ -69,9 +70,21 @@ void Describe(OptionList& list, TrackerOptions& o) {
            "Inliers of the final pose; with fewer the frame is not tracked.");
   list.Add("use_provisional_below", o.use_provisional_below, {0, 10'000}, "matches",
            "With fewer map matches the final pose also uses the last frame's own depth points.");
+  list.Add("use_held_back_below", o.use_held_back_below, {0, 10'000}, "matches",
+           "With fewer matched points of the room, those of objects that rest but are not believed "
+           "in yet count for the pose as well: a room full of furniture must not get lost.");
   list.Add("recently_lost_time", o.recently_lost_s, {0.0, 1000.0}, "s",
            "How long the map is searched for lost frames, or for the first ones of a run that goes "
            "on in a given map, before a new map may start.");
+  list.Add(
+      "max_jump", o.max_jump_m, {0.0, 100.0}, "m",
+      "A pose found without prediction counts if it is no further from the last than this ...");
+  list.Add("max_speed", o.max_speed_m_s, {0.0, 1000.0}, "m/s",
+           "... plus this times the time since: people walk at 1.4 m/s ...");
+  list.Add("max_jump_angle", o.max_jump_deg, {0.0, 180.0}, "deg",
+           "... and not turned further than this ...");
+  list.Add("max_turn_rate", o.max_turn_deg_s, {0.0, 3600.0}, "deg/s",
+           "... plus this times the time: hands turn a camera by up to 200 deg/s.");
   list.Add("reference_match_distance", o.reference_match_distance, {1, 256}, "bits",
            "Most differing descriptor bits of a match without prediction.");
   list.Add("reference_match_ratio", o.reference_match_ratio, {0.1, 1.0}, "",

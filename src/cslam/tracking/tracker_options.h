@@ -4,6 +4,7 @@
 
 #include "cslam/objects/object_tracker.h"
 #include "cslam/optim/pose_optimizer.h"
+#include "cslam/tracking/object_watch.h"
 #include "cslam/vision/frame_features.h"
 #include "cslam/vision/orb.h"
 
@@ -44,6 +45,7 @@ struct TrackerOptions {
   KeyframePolicyOptions keyframe;
   LocalMapOptions local_map;
   ObjectTrackerOptions objects;
+  ObjectWatchOptions watch;
 
   int repopulate_below = 700;
   bool report_keypoints = false;
@@ -54,7 +56,12 @@ struct TrackerOptions {
   int min_first_inliers = 10;
   int min_inliers = 30;
   int use_provisional_below = 100;
+  int use_held_back_below = 100;
   double recently_lost_s = 2.0;
+  double max_jump_m = 0.2;
+  double max_speed_m_s = 2.0;
+  double max_jump_deg = 15.0;
+  double max_turn_deg_s = 240.0;
   int reference_match_distance = 50;
   double reference_match_ratio = 0.7;
   double max_hint_age_s = 0.5;

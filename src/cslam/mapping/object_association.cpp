@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/mapping/object_association.h"
+
+#include "cslam/mapping/object_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cslam {
+namespace {
+
+constexpr std::size_t kMaxPoints = 300;  // of a sighting
+
+double ReachM(const ObjectSurface& surface) {
+  return std::max(0.04, 1.5 * surface.voxel_m);
+}
+
+std::vector<Eigen::Vector3f> Transformed(std::span<const Eigen::Vector3f> points, const Se3& T) {
+  std::vector<Eigen::Vector3f> moved;
+  moved.reserve(points.size());
+  for (const Eigen::Vector3f& p : points)
+    moved.push_back((T * p.cast<double>()).cast<float>());
+  return moved;
+}
+
+// Largest side of the object's box once it holds the points as well (object frame).
+double UnionSizeM(const OrientedBox& box, std::span<const Eigen::Vector3f> points) {
+  const Eigen::Matrix3d R = box.rotation.toRotationMatrix().transpose();
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    values.reserve(points.size());
+    for (const Eigen::Vector3f& p : points)
+      values.push_back(R.row(axis).dot(p.cast<double>() - box.center));
+    std::sort(values.begin(), values.end());
+    const std::size_t cut = values.size() / 20;
+    const double half = 0.5 * box.size_m[axis];
+    largest = std::max(
+        largest, std::max(half, values[values.size() - 1 - cut]) - std::min(-half, values[cut]));
+  }
+  return largest;
+}
+
+// Whether the object's surface stands in this picture, but not where the sighting is.
+bool StandsElsewhere(const MapObject& object, const Se3& T_camera_object,
+                     const ObjectSighting& sighting, const DepthView& view,
+                     const ExpectedViewOptions& options) {
+  constexpr double kMinVisible = 0.3;
+  constexpr double kMaxInside = 0.2;
+  int standing = 0;
+  int inside = 0;
+  for (const Eigen::Vector3f& sample : object.surface->samples) {
+    const Eigen::Vector3d p = T_camera_object * sample.cast<double>();
+    if (p.z() < 0.1) continue;
+    const Eigen::Vector2d uv = Project(view.camera, p);
+    const int u = static_cast<int>(std::floor(uv.x() / view.step));
+    const int v = static_cast<int>(std::floor(uv.y() / view.step));
+    if (u < 0 || v < 0 || u >= view.depth_mm.cols || v >= view.depth_mm.rows) continue;
+    const double z = static_cast<double>(view.DepthM(u, v));
+    const double tolerance = options.tolerance_m + options.tolerance_per_m2 * p.z() * p.z();
+    if (z <= 0.0 || std::abs(z - p.z()) > tolerance) continue;
+    ++standing;
+    inside += sighting.region.mask.at<std::uint8_t>(v, u) != 0 ? 1 : 0;
+  }
+  const auto num_samples = static_cast<double>(object.surface->samples.size());
+  return standing >= kMinVisible * num_samples && inside < kMaxInside * standing;
+}
+
+struct Likeness {
+  double score = 0.0;  // 0: another thing
+  bool is_on_surface = false;
+};
+
+Likeness Compare(const MapView& map, const MapObject& object, const PlacedSighting& sighting,
+                 const DepthView& view, const Se3& T_world_camera, const ObjectClasses& classes,
+                 const MapObjectOptions& options) {
+  const Se3 T_world_object = map.T_world_object(object);
+  const double distance_m = (sighting.centroid_world - T_world_object * object.centroid).norm();
+  const double limit_m =
+      std::max(classes.DistanceM(object.class_id), classes.DistanceM(sighting.sighting->class_id));
+  if (distance_m > 2.0 * limit_m) return {};
+  const Se3 T_camera_object = T_world_camera.Inverse() * T_world_object;
+  const auto points = Transformed(sighting.points_camera, T_camera_object.Inverse());
+  const double overlap = Overlap(*object.surface, points, ReachM(*object.surface));
+  const double nearness = std::max(0.0, 1.0 - distance_m / limit_m);
+  if (overlap >= options.min_overlap) return {overlap + 0.3 * nearness, true};
+  if (distance_m > limit_m || object.state == ObjectState::kAbsent) return {};
+  const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false};
+  const ExpectedView expected =
+      LookAtPlace(object.surface->samples, T_camera_object, sampler, 0.0, options.view);
+  if (expected.verdict == PlaceVerdict::kLookedThrough) return {};
+  if (StandsElsewhere(object, T_camera_object, *sighting.sighting, view, options.view)) return {};
+  if (UnionSizeM(object.box, points) > options.max_union * limit_m) return {};
+  return {overlap + 0.3 * nearness + 1e-3, false};
+}
+
+}  // namespace
+
+std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sightings,
+                                           const DepthView& view, const Se3& T_world_camera,
+                                           const ObjectClasses& classes,
+                                           const MapObjectOptions& options) {
+  std::vector<PlacedSighting> placed;
+  for (const ObjectSighting& sighting : sightings) {
+    if (!classes.IsMapped(sighting.class_id)) continue;
+    PlacedSighting one{&sighting, PointsOfRegion(view, sighting.region, kMaxPoints), {}};
+    if (static_cast<int>(one.points_camera.size()) < options.min_voxels) continue;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3f& p : one.points_camera)
+      sum += p.cast<double>();
+    one.centroid_world = T_world_camera * (sum / static_cast<double>(one.points_camera.size()));
+    placed.push_back(std::move(one));
+  }
+  return placed;
+}
+
+std::vector<std::optional<ObjectId>> AssociateSightings(const MapView& map, MapId map_id,
+                                                        std::span<const PlacedSighting> sightings,
+                                                        const DepthView& view,
+                                                        const Se3& T_world_camera,
+                                                        const ObjectClasses& classes,
+                                                        const MapObjectOptions& options) {
+  struct Pair {
+    Likeness likeness;
+    std::size_t sighting = 0;
+    ObjectId object;
+  };
+  std::vector<Pair> pairs;
+  for (const ObjectId id : map.Objects()) {
+    const MapObject& object = *map.FindObject(id);
+    if (object.map != map_id || !object.surface) continue;
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+      if (!classes.AreAlike(object.class_id, sightings[i].sighting->class_id)) continue;
+      const Likeness likeness =
+          Compare(map, object, sightings[i], view, T_world_camera, classes, options);
+      if (likeness.score > 0.0) pairs.push_back({likeness, i, id});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.likeness.score > b.likeness.score;
+  });
+  std::vector<std::optional<ObjectId>> found(sightings.size());
+  std::vector<ObjectId> taken;
+  for (const Pair& pair : pairs) {
+    if (found[pair.sighting]) continue;
+    const bool is_taken = std::find(taken.begin(), taken.end(), pair.object) != taken.end();
+    if (is_taken && !pair.likeness.is_on_surface) continue;
+    found[pair.sighting] = pair.object;
+    taken.push_back(pair.object);
+  }
+  return found;
+}
+
+std::optional<ObjectId> FindDouble(const MapView& map, const MapObject& object,
+                                   const ObjectClasses& classes, const MapObjectOptions& options) {
+  if (!object.surface || object.state == ObjectState::kAbsent) return std::nullopt;
+  const Se3 T_object_world = map.T_world_object(object).Inverse();
+  for (const ObjectId id : map.Objects()) {
+    const MapObject& other = *map.FindObject(id);
+    if (id == object.id || other.map != object.map || !other.surface ||
+        other.state == ObjectState::kAbsent || !classes.AreAlike(other.class_id, object.class_id)) {
+      continue;
+    }
+    const Se3 T_object_other = T_object_world * map.T_world_object(other);
+    const double limit_m =
+        std::max(classes.DistanceM(object.class_id), classes.DistanceM(other.class_id));
+    if ((T_object_other * other.centroid - object.centroid).norm() > limit_m) continue;
+    const double of_other =
+        Overlap(*object.surface, Transformed(other.surface->samples, T_object_other),
+                ReachM(*object.surface));
+    const double of_object =
+        Overlap(*other.surface, Transformed(object.surface->samples, T_object_other.Inverse()),
+                ReachM(*other.surface));
+    if (std::max(of_other, of_object) >= options.merge_overlap) return id;
+  }
+  return std::nullopt;
+}
+
+}  // namespace cslam

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/mapping/object_changes.h"
+
+#include "cslam/objects/object_sighting.h"
+#include "cslam/vision/depth_thumbnail.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace cslam {
+namespace {
+
+double Confidence(const MapView& map, const MapChange& change) {
+  double confidence = 1.0;
+  if (const MapObject* object = map.FindObject(change.object)) {
+    const double belief = BeliefOf(*object);
+    confidence *= object->state == ObjectState::kAbsent ? 1.0 - belief : belief;
+  }
+  if (const MapObject* object = map.FindObject(change.new_object)) confidence *= BeliefOf(*object);
+  return confidence;
+}
+
+bool IsSingle(const MapChange& change, MapChangeKind kind) {
+  return change.kind == kind && !change.new_object.valid();
+}
+
+// Adds a change, joined with the best of those that are still single: a thing that moved before
+// one that was replaced, later ones first.
+template <typename JoinWith>
+void AddJoined(Map& map, MapChange change, JoinWith&& join) {
+  std::vector<MapChange> changes = map.changes();
+  std::optional<std::size_t> partner;
+  MapChange best = change;
+  for (std::size_t i = changes.size(); i-- > 0;) {
+    MapChange joined = change;
+    if (!join(joined, changes[i])) continue;
+    if (!partner || (joined.kind == MapChangeKind::kMoved && best.kind != MapChangeKind::kMoved)) {
+      partner = i;
+      best = joined;
+    }
+  }
+  if (partner) changes.erase(changes.begin() + static_cast<std::ptrdiff_t>(*partner));
+  changes.push_back(best);
+  map.SetChanges(std::move(changes));
+}
+
+}  // namespace
+
+ViewsBefore LookBack(const MapView& map, const MapObject& object, const Camera& camera,
+                     std::uint32_t session, const ExpectedViewOptions& options) {
+  ViewsBefore before;
+  if (!object.surface) return before;
+  const Se3 T_world_object = map.T_world_object(object);
+  bool is_of_this_session = false;
+  for (const KeyframeId id : map.Keyframes()) {
+    if (!(id < object.first_keyframe)) break;
+    const Keyframe& keyframe = *map.FindKeyframe(id);
+    if (keyframe.map != object.map || keyframe.data->depth_small_mm.empty()) continue;
+    const Se3 T_camera_object = keyframe.T_world_camera.Inverse() * T_world_object;
+    if ((T_camera_object * object.centroid).z() < 0.1) continue;
+    const DepthSampler sampler{&keyframe.data->depth_small_mm, DepthThumbnailStep(camera.width),
+                               &camera, camera.HasDistortion()};
+    const ExpectedView view =
+        LookAtPlace(object.surface->samples, T_camera_object, sampler, 0.0, options);
+    if (view.verdict == PlaceVerdict::kStanding) ++before.num_standing;
+    if (view.verdict != PlaceVerdict::kLookedThrough) continue;
+    ++before.num_through;
+    is_of_this_session =
+        is_of_this_session || map.SessionOf(id) == static_cast<std::size_t>(session);
+  }
+  before.is_between_sessions = before.num_through > 0 && !is_of_this_session;
+  return before;
+}
+
+ChangeList::ChangeList(const Camera& camera, const MapObjectOptions& options,
+                       const ObjectClasses& classes)
+    : camera_(camera), options_(options), classes_(classes) {}
+
+// Sizes are compared by the two largest sides: the third is often not seen.
+bool ChangeList::LooksLike(const MapObject& a, const MapObject& b) const {
+  if (!classes_.AreAlike(a.class_id, b.class_id)) return false;
+  if (ColourLikeness(a.colours, b.colours) < options_.min_likeness) return false;
+  Eigen::Vector3d size_a = a.box.size_m;
+  Eigen::Vector3d size_b = b.box.size_m;
+  std::sort(size_a.begin(), size_a.end());
+  std::sort(size_b.begin(), size_b.end());
+  for (int i = 1; i < 3; ++i) {
+    const double ratio = std::max(size_a[i], 0.01) / std::max(size_b[i], 0.01);
+    if (ratio > options_.max_size_ratio || ratio < 1.0 / options_.max_size_ratio) return false;
+  }
+  return true;
+}
+
+bool ChangeList::StandsAt(const MapView& map, const MapObject& a, const MapObject& b) const {
+  return (map.CentroidOf(a) - map.CentroidOf(b)).norm() <= options_.replace_distance_m;
+}
+
+// Makes one change of two: change has one half, other the other half.
+bool ChangeList::Join(const MapView& map, MapChange& change, const MapChange& other) const {
+  const bool is_gone = IsSingle(change, MapChangeKind::kRemoved);
+  const MapChange& removed = is_gone ? change : other;
+  const MapChange& added = is_gone ? other : change;
+  if (!IsSingle(removed, MapChangeKind::kRemoved) || !IsSingle(added, MapChangeKind::kAdded)) {
+    return false;
+  }
+  const MapObject* old_object = map.FindObject(removed.object);
+  const MapObject* new_object = map.FindObject(added.object);
+  if (old_object == nullptr || new_object == nullptr || old_object == new_object) return false;
+  if (old_object->map != new_object->map) return false;
+  MapChange joined = removed;
+  if (LooksLike(*old_object, *new_object)) {
+    joined.kind = MapChangeKind::kMoved;
+  } else if (!classes_.AreAlike(old_object->class_id, new_object->class_id) &&
+             StandsAt(map, *old_object, *new_object)) {
+    joined.kind = MapChangeKind::kReplaced;
+  } else {
+    return false;
+  }
+  joined.new_object = added.object;
+  joined.num_seen_views = added.num_seen_views;
+  joined.is_between_sessions = removed.is_between_sessions && added.is_between_sessions;
+  joined.reported = std::max(removed.reported, added.reported);
+  joined.confidence = Confidence(map, joined);
+  change = joined;
+  return true;
+}
+
+void ChangeList::OnGone(Map& map, ObjectId id, Stamp now, int num_views,
+                        std::uint32_t session) const {
+  const MapObject& object = *map.FindObject(id);
+  MapChange change;
+  change.kind = MapChangeKind::kRemoved;
+  change.object = id;
+  change.last_seen_there = object.last_seen;
+  change.first_seen_absent = object.absent_since;
+  change.reported = now;
+  change.num_absent_views = num_views;
+  change.is_between_sessions = object.last_session < session;
+  change.confidence = Confidence(map, change);
+  AddJoined(map, change, [&](MapChange& a, const MapChange& b) { return Join(map, a, b); });
+}
+
+void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t session) const {
+  const MapObject& object = *map.FindObject(id);
+  const bool is_back = object.absent_since.has_value();
+  const ViewsBefore before =
+      is_back ? ViewsBefore{} : LookBack(map, object, camera_, session, options_.view);
+  const bool was_empty = is_back || (before.num_through >= options_.min_views_before &&
+                                     before.num_through > 2 * before.num_standing);
+  MapChange change;
+  change.kind = MapChangeKind::kAdded;
+  change.object = id;
+  change.last_seen_there = object.first_seen;
+  change.reported = now;
+  change.num_absent_views = before.num_through;
+  change.num_seen_views = object.num_sightings;
+  change.is_between_sessions = before.is_between_sessions;
+  change.confidence = Confidence(map, change);
+  if (was_empty) {
+    AddJoined(map, change, [&](MapChange& a, const MapChange& b) { return Join(map, a, b); });
+    return;
+  }
+  // Nobody looked there before: it came only if something like it has gone.
+  std::vector<MapChange> changes = map.changes();
+  for (std::size_t i = changes.size(); i-- > 0;) {
+    const MapObject* gone = map.FindObject(changes[i].object);
+    if (!IsSingle(changes[i], MapChangeKind::kRemoved) || gone == nullptr ||
+        before.num_standing > 0 || !(gone->last_keyframe < object.first_keyframe)) {
+      continue;
+    }
+    MapChange joined = change;
+    if (!Join(map, joined, changes[i]) || joined.kind != MapChangeKind::kMoved) continue;
+    changes[i] = joined;
+    map.SetChanges(std::move(changes));
+    return;
+  }
+}
+
+void ChangeList::OnMerged(Map& map, ObjectId keep, ObjectId drop) const {
+  std::vector<MapChange> changes = map.changes();
+  for (MapChange& change : changes) {
+    if (change.object == drop) change.object = keep;
+    if (change.new_object == drop) change.new_object = keep;
+  }
+  const auto is_void = [](const MapChange& c) { return c.object == c.new_object; };
+  std::erase_if(changes, is_void);
+  if (!changes.empty() || !map.changes().empty()) map.SetChanges(std::move(changes));
+}
+
+}  // namespace cslam

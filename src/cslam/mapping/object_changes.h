@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/geometry/camera.h"
+#include "cslam/map/map.h"
+#include "cslam/mapping/object_options.h"
+
+namespace cslam {
+
+// What keyframes saw, before an object was first seen, at the place where it stands.
+struct ViewsBefore {
+  int num_through = 0;               // it was empty
+  int num_standing = 0;              // something was there, if only nobody named it
+  bool is_between_sessions = false;  // all of those that looked through are of earlier sessions
+};
+ViewsBefore LookBack(const MapView& map, const MapObject& object, const Camera& camera,
+                     std::uint32_t session, const ExpectedViewOptions& options);
+
+// The map's list of changes, kept complete and free of contradictions while objects go and come.
+// A removal and an arrival become one: `moved` if both are alike in class, size and colour,
+// `replaced` if another thing stands there now.
+class ChangeList {
+ public:
+  ChangeList(const Camera& camera, const MapObjectOptions& options, const ObjectClasses& classes);
+
+  // The object's place was seen without it.
+  void OnGone(Map& map, ObjectId object, Stamp now, int num_views, std::uint32_t session) const;
+
+  // The object is believed in for the first time, or again after it was gone.
+  void OnArrived(Map& map, ObjectId object, Stamp now, std::uint32_t session) const;
+
+  // drop turned out to be keep.
+  void OnMerged(Map& map, ObjectId keep, ObjectId drop) const;
+
+ private:
+  bool LooksLike(const MapObject& a, const MapObject& b) const;
+  bool StandsAt(const MapView& map, const MapObject& a, const MapObject& b) const;
+  bool Join(const MapView& map, MapChange& change, const MapChange& other) const;
+
+  const Camera camera_;
+  const MapObjectOptions options_;
+  const ObjectClasses& classes_;
+};
+
+}  // namespace cslam

@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/mapping/object_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace cslam {
+namespace {
+
+using Cell = std::array<std::int16_t, 3>;
+
+constexpr std::size_t kNumSamples = 96;
+constexpr std::size_t kMaxVoxels = 4000;
+
+Cell CellOf(const Eigen::Vector3f& p, double voxel_m) {
+  Cell cell{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double index = std::floor(static_cast<double>(p[axis]) / voxel_m);
+    cell[static_cast<std::size_t>(axis)] =
+        static_cast<std::int16_t>(std::clamp(index, -32000.0, 32000.0));
+  }
+  return cell;
+}
+
+bool IsBefore(const SurfaceVoxel& a, const SurfaceVoxel& b) {
+  return a.cell < b.cell;
+}
+
+// Cells of one view: each counts once.
+std::vector<SurfaceVoxel> CellsOf(std::span<const Eigen::Vector3f> points, const Se3& T,
+                                  double voxel_m) {
+  std::vector<SurfaceVoxel> all;
+  all.reserve(points.size());
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector3f p = (T * point.cast<double>()).cast<float>();
+    all.push_back({CellOf(p, voxel_m), p, 1, 0});
+  }
+  std::stable_sort(all.begin(), all.end(), IsBefore);
+  std::vector<SurfaceVoxel> cells;
+  for (std::size_t begin = 0; begin < all.size();) {
+    std::size_t end = begin;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    while (end < all.size() && all[end].cell == all[begin].cell)
+      sum += all[end++].p;
+    cells.push_back({all[begin].cell, sum / static_cast<float>(end - begin), 1, 0});
+    begin = end;
+  }
+  return cells;
+}
+
+std::uint16_t Add(std::uint16_t a, std::uint16_t b) {
+  return static_cast<std::uint16_t>(std::min(a + b, 60000));
+}
+
+// Both sorted by cell.
+std::vector<SurfaceVoxel> Union(const std::vector<SurfaceVoxel>& a,
+                                const std::vector<SurfaceVoxel>& b) {
+  std::vector<SurfaceVoxel> joined;
+  joined.reserve(a.size() + b.size());
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(joined), IsBefore);
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < joined.size(); ++i) {
+    SurfaceVoxel& kept = joined[last];
+    const SurfaceVoxel& next = joined[i];
+    if (next.cell != kept.cell) {
+      joined[++last] = next;
+      continue;
+    }
+    const auto weight = static_cast<float>(kept.num_inside);
+    const auto more = static_cast<float>(next.num_inside);
+    if (weight + more > 0.0F) kept.p = (weight * kept.p + more * next.p) / (weight + more);
+    kept.num_inside = Add(kept.num_inside, next.num_inside);
+    kept.num_outside = Add(kept.num_outside, next.num_outside);
+  }
+  if (!joined.empty()) joined.resize(last + 1);
+  return joined;
+}
+
+// Drops what is seen outside the object again and again, and thins out what is too much.
+void Clean(std::vector<SurfaceVoxel>& voxels) {
+  constexpr int kSureOutside = 3;
+  std::erase_if(voxels, [](const SurfaceVoxel& v) {
+    return v.num_outside >= kSureOutside && v.num_outside > 2 * v.num_inside;
+  });
+  if (voxels.size() <= kMaxVoxels) return;
+  std::erase_if(voxels, [](const SurfaceVoxel& v) { return v.num_inside < 2; });
+}
+
+std::vector<Eigen::Vector3f> SamplesOf(const ObjectSurface& surface) {
+  std::vector<Eigen::Vector3f> trusted = TrustedPoints(surface);
+  if (trusted.size() <= kNumSamples) return trusted;
+  std::vector<Eigen::Vector3f> samples;
+  samples.reserve(kNumSamples);
+  for (std::size_t i = 0; i < kNumSamples; ++i)
+    samples.push_back(trusted[i * trusted.size() / kNumSamples]);
+  return samples;
+}
+
+void CountOutside(std::vector<SurfaceVoxel>& voxels, const Se3& T_camera_surface,
+                  const DepthView& view, const DepthRegion& region, double tolerance_m) {
+  for (SurfaceVoxel& voxel : voxels) {
+    const Eigen::Vector3d p = T_camera_surface * voxel.p.cast<double>();
+    if (p.z() < 0.1) continue;
+    const Eigen::Vector2d uv = Project(view.camera, p);
+    const int u = static_cast<int>(std::floor(uv.x() / view.step));
+    const int v = static_cast<int>(std::floor(uv.y() / view.step));
+    if (u < 0 || v < 0 || u >= region.mask.cols || v >= region.mask.rows) continue;
+    const double z = static_cast<double>(view.DepthM(u, v));
+    if (z <= 0.0 || std::abs(z - p.z()) > tolerance_m) continue;
+    if (region.mask.at<std::uint8_t>(v, u) == 0) {
+      voxel.num_outside = Add(voxel.num_outside, 1);
+    }
+  }
+}
+
+// The value below which a share of the values lies; reorders them.
+double Quantile(std::vector<double>& values, double share) {
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+struct Interval {
+  double min = 0.0;
+  double max = 0.0;
+  double length() const { return max - min; }
+  double middle() const { return 0.5 * (min + max); }
+};
+
+Interval RobustInterval(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& axis) {
+  constexpr double kLeftOut = 0.02;
+  std::vector<double> values;
+  values.reserve(points.size());
+  for (const Eigen::Vector3f& p : points)
+    values.push_back(axis.dot(p.cast<double>()));
+  const double min = Quantile(values, kLeftOut);
+  return {min, Quantile(values, 1.0 - kLeftOut)};
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> PointsOfRegion(const DepthView& view, const DepthRegion& region,
+                                            std::size_t max_count) {
+  std::vector<Eigen::Vector3f> all;
+  all.reserve(static_cast<std::size_t>(region.num_pixels));
+  for (int v = 0; v < region.mask.rows; ++v) {
+    for (int u = 0; u < region.mask.cols; ++u) {
+      if (region.mask.at<std::uint8_t>(v, u) == 0) continue;
+      const double z = static_cast<double>(view.DepthM(u, v));
+      if (z > 0.0) all.push_back(view.PointAt(u, v, z).cast<float>());
+    }
+  }
+  if (all.size() <= max_count) return all;
+  std::vector<Eigen::Vector3f> some;
+  some.reserve(max_count);
+  for (std::size_t i = 0; i < max_count; ++i)
+    some.push_back(all[i * all.size() / max_count]);
+  return some;
+}
+
+ObjectSurface WithView(const ObjectSurface& surface, std::span<const Eigen::Vector3f> points,
+                       const Se3& T_surface_camera, const DepthView& view,
+                       const DepthRegion& region, double tolerance_m) {
+  ObjectSurface next;
+  next.voxel_m = surface.voxel_m;
+  std::vector<SurfaceVoxel> known = surface.voxels;
+  CountOutside(known, T_surface_camera.Inverse(), view, region, tolerance_m);
+  next.voxels = Union(known, CellsOf(points, T_surface_camera, surface.voxel_m));
+  Clean(next.voxels);
+  next.samples = SamplesOf(next);
+  return next;
+}
+
+ObjectSurface Joined(const ObjectSurface& surface, const ObjectSurface& other,
+                     const Se3& T_surface_other) {
+  std::vector<SurfaceVoxel> moved;
+  moved.reserve(other.voxels.size());
+  for (SurfaceVoxel voxel : other.voxels) {
+    voxel.p = (T_surface_other * voxel.p.cast<double>()).cast<float>();
+    voxel.cell = CellOf(voxel.p, surface.voxel_m);
+    moved.push_back(voxel);
+  }
+  std::stable_sort(moved.begin(), moved.end(), IsBefore);
+  ObjectSurface joined;
+  joined.voxel_m = surface.voxel_m;
+  joined.voxels = Union(surface.voxels, Union(moved, {}));
+  Clean(joined.voxels);
+  joined.samples = SamplesOf(joined);
+  return joined;
+}
+
+bool IsTrusted(const SurfaceVoxel& voxel) {
+  return voxel.num_inside > 0 && voxel.num_inside >= voxel.num_outside;
+}
+
+std::vector<Eigen::Vector3f> TrustedPoints(const ObjectSurface& surface) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(surface.voxels.size());
+  for (const SurfaceVoxel& voxel : surface.voxels) {
+    if (IsTrusted(voxel)) points.push_back(voxel.p);
+  }
+  return points;
+}
+
+double Overlap(const ObjectSurface& surface, std::span<const Eigen::Vector3f> points,
+               double reach_m) {
+  if (points.empty() || surface.voxels.empty()) return 0.0;
+  std::vector<Cell> taken;  // of the coarse grid, each with its neighbours
+  for (const SurfaceVoxel& voxel : surface.voxels) {
+    if (IsTrusted(voxel)) taken.push_back(CellOf(voxel.p, reach_m));
+  }
+  std::sort(taken.begin(), taken.end());
+  taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
+  int num_on = 0;
+  for (const Eigen::Vector3f& p : points) {
+    const Cell cell = CellOf(p, reach_m);
+    bool is_on = false;
+    for (int i = 0; i < 27 && !is_on; ++i) {
+      const Cell near{static_cast<std::int16_t>(cell[0] + i % 3 - 1),
+                      static_cast<std::int16_t>(cell[1] + i / 3 % 3 - 1),
+                      static_cast<std::int16_t>(cell[2] + i / 9 - 1)};
+      is_on = std::binary_search(taken.begin(), taken.end(), near);
+    }
+    num_on += is_on ? 1 : 0;
+  }
+  return static_cast<double>(num_on) / static_cast<double>(points.size());
+}
+
+OrientedBox BoxAround(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& up) {
+  constexpr int kStepDeg = 5;
+  OrientedBox box;
+  if (points.empty()) return box;
+  const Eigen::Vector3d first = up.unitOrthogonal();
+  const Eigen::Vector3d second = up.cross(first);
+  double least_area = std::numeric_limits<double>::max();
+  const Interval height = RobustInterval(points, up);
+  for (int degrees = 0; degrees < 90; degrees += kStepDeg) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const Eigen::Vector3d x = std::cos(angle) * first + std::sin(angle) * second;
+    const Eigen::Vector3d y = up.cross(x);
+    const Interval along_x = RobustInterval(points, x);
+    const Interval along_y = RobustInterval(points, y);
+    const double area = along_x.length() * along_y.length();
+    if (area >= least_area) continue;
+    least_area = area;
+    Eigen::Matrix3d axes;
+    axes << x, y, up;
+    box.rotation = Eigen::Quaterniond(axes);
+    box.size_m = {along_x.length(), along_y.length(), height.length()};
+    box.center = axes * Eigen::Vector3d(along_x.middle(), along_y.middle(), height.middle());
+  }
+  return box;
+}
+
+Eigen::Vector3d CentroidOfPoints(std::span<const Eigen::Vector3d> points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points)
+    sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+Eigen::AlignedBox3d ExtentOfPoints(std::span<const Eigen::Vector3d> points) {
+  constexpr double kShare = 0.05;
+  Eigen::AlignedBox3d box;
+  Eigen::Vector3d min;
+  Eigen::Vector3d max;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    values.reserve(points.size());
+    for (const Eigen::Vector3d& p : points)
+      values.push_back(p[axis]);
+    std::sort(values.begin(), values.end());
+    const std::size_t count = std::max<std::size_t>(
+        1, static_cast<std::size_t>(kShare * static_cast<double>(values.size())));
+    min[axis] = values[(count - 1) / 2];
+    max[axis] = values[values.size() - 1 - (count - 1) / 2];
+  }
+  return {min, max};
+}
+
+}  // namespace cslam

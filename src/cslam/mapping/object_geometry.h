@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/map/map_object.h"
+#include "cslam/objects/depth_region.h"
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+namespace cslam {
+
+// Readings of the view inside the region, in the camera frame (m), at most max_count, spread
+// evenly.
+std::vector<Eigen::Vector3f> PointsOfRegion(const DepthView& view, const DepthRegion& region,
+                                            std::size_t max_count);
+
+// The surface with one more view of the object. points: of its region, T_surface_camera * them lie
+// in the surface's frame. What is seen there but outside the region speaks against a cell: floor
+// and wall that an earlier region had run into.
+ObjectSurface WithView(const ObjectSurface& surface, std::span<const Eigen::Vector3f> points,
+                       const Se3& T_surface_camera, const DepthView& view,
+                       const DepthRegion& region, double tolerance_m);
+
+// Both together; T_surface_other takes the other's frame to the surface's.
+ObjectSurface Joined(const ObjectSurface& surface, const ObjectSurface& other,
+                     const Se3& T_surface_other);
+
+// Cells seen inside the region at least as often as outside.
+bool IsTrusted(const SurfaceVoxel& voxel);
+std::vector<Eigen::Vector3f> TrustedPoints(const ObjectSurface& surface);
+
+// Share of points (in the surface's frame) with a trusted cell within about reach_m.
+double Overlap(const ObjectSurface& surface, std::span<const Eigen::Vector3f> points,
+               double reach_m);
+
+// The smallest box of which one axis is up (unit vector), the outermost 2 % left out.
+OrientedBox BoxAround(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& up);
+
+// The paper's: mean, and box along the axes between the medians of the 5 % smallest and largest
+// coordinates. points not empty.
+Eigen::Vector3d CentroidOfPoints(std::span<const Eigen::Vector3d> points);
+Eigen::AlignedBox3d ExtentOfPoints(std::span<const Eigen::Vector3d> points);
+
+}  // namespace cslam
