@@ -37,7 +37,7 @@ double Cross(const Eigen::Vector2d& o, const Eigen::Vector2d& a, const Eigen::Ve
 }
 
 // The outline of a box from above, closed.
-std::vector<Eigen::Vector2d> Outline(const OrientedBox& box) {
+std::vector<Eigen::Vector2d> Outline(const PlacedBox& box) {
   std::vector<Eigen::Vector2d> corners;
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector3d sign((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5,

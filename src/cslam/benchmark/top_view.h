@@ -13,7 +13,7 @@ namespace cslam {
 
 // A box with a word about it.
 struct LabelledBox {
-  OrientedBox box;
+  PlacedBox box;
   std::string label;
 };
 

@@ -168,10 +168,10 @@ TEST_P(RobotStory, KeepsClearOfFurnitureAndWalls) {
   constexpr double kFlatM = 0.05;  // it drives over rugs
   const WorldBoxes boxes(story().world);
   const SceneObject& room = story().world.scene.objects.front();
-  const OrientedBox shell = BoxAround(room.mesh, room.T_world_object);
+  const PlacedBox shell = BoxAround(room.mesh, room.T_world_object);
   for (double t = 0.0; t < story().camera.duration_s; t += 0.5) {
     const Eigen::Vector3d p = story().camera.T_world_camera(t).translation;
-    for (const OrientedBox& box : boxes.At(t))
+    for (const PlacedBox& box : boxes.At(t))
       EXPECT_TRUE(box.size_m.z() < kFlatM || DistanceTo(box, p) > kRobotRadiusM)
           << t << " s at " << p.transpose() << ", box at "
           << box.T_world_box.translation.transpose();

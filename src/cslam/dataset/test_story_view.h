@@ -193,7 +193,7 @@ inline Clearance ClearanceOf(const Story& story, double step_s) {
       if (world.animations.contains(instance)) continue;
       const Placement state = StateAt(world, instance, t);
       if (state.presence != Presence::kResting) continue;
-      const OrientedBox box = boxes.Of(instance, state.T_world_object);
+      const PlacedBox box = boxes.Of(instance, state.T_world_object);
       for (const Eigen::Vector3d& p : people) {
         for (const double height_m : {kShinM, kChestM}) {
           const Eigen::Vector3d at(p.x(), p.y(), height_m);

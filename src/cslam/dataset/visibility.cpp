@@ -17,7 +17,7 @@ constexpr double kNearM = 0.05;       // things nearer to the camera's plane are
 constexpr double kContactM = 0.03;    // a box that holds a point by less still touches it
 constexpr double kViewMarginPx = 20;  // around the picture, for what counts as out of view
 
-std::array<Eigen::Vector3d, 8> CornersOf(const OrientedBox& box) {
+std::array<Eigen::Vector3d, 8> CornersOf(const PlacedBox& box) {
   std::array<Eigen::Vector3d, 8> corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector3d sign((i & 1U) != 0 ? 0.5 : -0.5, (i & 2U) != 0 ? 0.5 : -0.5,
@@ -27,13 +27,13 @@ std::array<Eigen::Vector3d, 8> CornersOf(const OrientedBox& box) {
   return corners;
 }
 
-bool Holds(const OrientedBox& box, const Eigen::Vector3d& p_world, double margin_m) {
+bool Holds(const PlacedBox& box, const Eigen::Vector3d& p_world, double margin_m) {
   const Eigen::Vector3d p = box.T_world_box.Inverse() * p_world;
   return ((p.cwiseAbs() - 0.5 * box.size_m).array() < margin_m).all();
 }
 
 // Whether the box meets the straight line from one point to the other.
-bool Blocks(const OrientedBox& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+bool Blocks(const PlacedBox& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Se3 T_box_world = box.T_world_box.Inverse();
   const Eigen::Vector3d a = T_box_world * from;
   const Eigen::Vector3d d = T_box_world * to - a;
@@ -53,7 +53,7 @@ bool Blocks(const OrientedBox& box, const Eigen::Vector3d& from, const Eigen::Ve
   return enter < leave;
 }
 
-std::vector<Eigen::Vector3d> SamplesOf(const OrientedBox& box) {
+std::vector<Eigen::Vector3d> SamplesOf(const PlacedBox& box) {
   std::vector<Eigen::Vector3d> samples;
   const auto share = [](int i) { return (i + 0.5) / kSamplesPerAxis - 0.5; };
   for (int x = 0; x < kSamplesPerAxis; ++x)
@@ -66,7 +66,7 @@ std::vector<Eigen::Vector3d> SamplesOf(const OrientedBox& box) {
 }
 
 // The part of the picture around what is seen of the box.
-double PictureShare(const OrientedBox& box, const Camera& camera, const Se3& T_camera_world) {
+double PictureShare(const PlacedBox& box, const Camera& camera, const Se3& T_camera_world) {
   Eigen::Array2d low(1e9, 1e9);
   Eigen::Array2d high(-1e9, -1e9);
   for (const Eigen::Vector3d& corner : CornersOf(box)) {
@@ -99,7 +99,7 @@ class LongestLook {
 
 }  // namespace
 
-OrientedBox BoxAround(const Mesh& mesh, const Se3& T_world_object) {
+PlacedBox BoxAround(const Mesh& mesh, const Se3& T_world_object) {
   CSLAM_CHECK(!mesh.positions.empty());
   Eigen::Vector3f low = mesh.positions.front();
   Eigen::Vector3f high = low;
@@ -112,23 +112,23 @@ OrientedBox BoxAround(const Mesh& mesh, const Se3& T_world_object) {
           (high - low).cast<double>()};
 }
 
-double DistanceTo(const OrientedBox& box, const Eigen::Vector3d& p_world) {
+double DistanceTo(const PlacedBox& box, const Eigen::Vector3d& p_world) {
   const Eigen::Vector3d p = box.T_world_box.Inverse() * p_world;
   return (p.cwiseAbs() - 0.5 * box.size_m).cwiseMax(0.0).norm();
 }
 
 WorldBoxes::WorldBoxes(const World& world) : world_(world) {
   for (const SceneObject& object : world.scene.objects)
-    own_.push_back(object.mesh.positions.empty() ? OrientedBox{} : BoxAround(object.mesh, Se3()));
+    own_.push_back(object.mesh.positions.empty() ? PlacedBox{} : BoxAround(object.mesh, Se3()));
 }
 
-OrientedBox WorldBoxes::Of(int instance, const Se3& T_world_object) const {
-  const OrientedBox& own = own_.at(static_cast<std::size_t>(instance));
+PlacedBox WorldBoxes::Of(int instance, const Se3& T_world_object) const {
+  const PlacedBox& own = own_.at(static_cast<std::size_t>(instance));
   return {T_world_object * own.T_world_box, own.size_m};
 }
 
-std::vector<OrientedBox> WorldBoxes::At(double time_s, int without) const {
-  std::vector<OrientedBox> boxes;
+std::vector<PlacedBox> WorldBoxes::At(double time_s, int without) const {
+  std::vector<PlacedBox> boxes;
   for (int instance = 1; instance < static_cast<int>(own_.size()); ++instance) {
     if (instance == without || world_.animations.contains(instance)) continue;
     const auto timeline = world_.timelines.find(instance);
@@ -143,7 +143,7 @@ std::vector<OrientedBox> WorldBoxes::At(double time_s, int without) const {
   return boxes;
 }
 
-bool MayBeInView(const OrientedBox& box, const Camera& camera, const Se3& T_world_camera,
+bool MayBeInView(const PlacedBox& box, const Camera& camera, const Se3& T_world_camera,
                  double margin_px) {
   const Se3 T_camera_world = T_world_camera.Inverse();
   const double left = (camera.cx + 0.5 + margin_px) / camera.fx;
@@ -162,8 +162,8 @@ bool MayBeInView(const OrientedBox& box, const Camera& camera, const Se3& T_worl
   return (inside > 0.0).all();
 }
 
-BoxView ViewOf(const OrientedBox& box, const Camera& camera, const Se3& T_world_camera,
-               std::span<const OrientedBox> occluders) {
+BoxView ViewOf(const PlacedBox& box, const Camera& camera, const Se3& T_world_camera,
+               std::span<const PlacedBox> occluders) {
   BoxView view;
   if (!MayBeInView(box, camera, T_world_camera, 0.0)) return view;
   const Se3 T_camera_world = T_world_camera.Inverse();
@@ -179,7 +179,7 @@ BoxView ViewOf(const OrientedBox& box, const Camera& camera, const Se3& T_world_
         uv.y() >= camera.height - 0.5)
       continue;
     ++inside;
-    const bool is_hidden = std::ranges::any_of(occluders, [&](const OrientedBox& o) {
+    const bool is_hidden = std::ranges::any_of(occluders, [&](const PlacedBox& o) {
       return !Holds(o, sample, kContactM) && Blocks(o, T_world_camera.translation, sample);
     });
     if (!is_hidden) ++clear;
@@ -216,14 +216,14 @@ std::vector<SilentChange> SilentChanges(const World& world) {
 
 ChangeViews ViewsAround(const WorldBoxes& boxes, const CameraMotion& motion, const Camera& camera,
                         const SilentChange& change, const ClearView& clear) {
-  std::optional<OrientedBox> old_box;
-  std::optional<OrientedBox> new_box;
+  std::optional<PlacedBox> old_box;
+  std::optional<PlacedBox> new_box;
   if (change.from) old_box = boxes.Of(change.instance, *change.from);
   if (change.to) new_box = boxes.Of(change.instance, *change.to);
-  const auto may_see = [&](const std::optional<OrientedBox>& box, const Se3& T_world_camera) {
+  const auto may_see = [&](const std::optional<PlacedBox>& box, const Se3& T_world_camera) {
     return box && MayBeInView(*box, camera, T_world_camera, kViewMarginPx);
   };
-  const auto is_clear = [&](const std::optional<OrientedBox>& box, const Se3& T_world_camera,
+  const auto is_clear = [&](const std::optional<PlacedBox>& box, const Se3& T_world_camera,
                             double t) {
     if (!may_see(box, T_world_camera)) return false;
     const BoxView view = ViewOf(*box, camera, T_world_camera, boxes.At(t, change.instance));

@@ -21,16 +21,16 @@
 namespace cslam {
 
 // Around an object; the origin of T_world_box is its centre.
-struct OrientedBox {
+struct PlacedBox {
   Se3 T_world_box;
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
 };
 
 // The box along the object's own axes around its mesh, wherever the object is.
-OrientedBox BoxAround(const Mesh& mesh, const Se3& T_world_object);
+PlacedBox BoxAround(const Mesh& mesh, const Se3& T_world_object);
 
 // From a point to a box in m; 0 inside.
-double DistanceTo(const OrientedBox& box, const Eigen::Vector3d& p_world);
+double DistanceTo(const PlacedBox& box, const Eigen::Vector3d& p_world);
 
 // The boxes of a world's rigid objects. The world must outlive it.
 class WorldBoxes {
@@ -38,19 +38,19 @@ class WorldBoxes {
   explicit WorldBoxes(const World& world);
 
   // All that are there, but for the room (0), people, and one other.
-  std::vector<OrientedBox> At(double time_s, int without = 0) const;
+  std::vector<PlacedBox> At(double time_s, int without = 0) const;
 
   // Of one object, were it at that pose.
-  OrientedBox Of(int instance, const Se3& T_world_object) const;
+  PlacedBox Of(int instance, const Se3& T_world_object) const;
 
  private:
   const World& world_;
-  std::vector<OrientedBox> own_;  // by instance id, in the object's frame
+  std::vector<PlacedBox> own_;  // by instance id, in the object's frame
 };
 
 // False only if no part of the box is in the picture, be it hidden or not: with a margin of
 // margin_px around the picture.
-bool MayBeInView(const OrientedBox& box, const Camera& camera, const Se3& T_world_camera,
+bool MayBeInView(const PlacedBox& box, const Camera& camera, const Se3& T_world_camera,
                  double margin_px);
 
 // How well a box is seen. Shares from 0 to 1.
@@ -61,8 +61,8 @@ struct BoxView {
 };
 
 // Occluders that hold a part of the box (a chair that a bear sits on) do not hide that part.
-BoxView ViewOf(const OrientedBox& box, const Camera& camera, const Se3& T_world_camera,
-               std::span<const OrientedBox> occluders);
+BoxView ViewOf(const PlacedBox& box, const Camera& camera, const Se3& T_world_camera,
+               std::span<const PlacedBox> occluders);
 
 // A resting object that leaves its place, comes, or both at once; nobody carries it.
 struct SilentChange {

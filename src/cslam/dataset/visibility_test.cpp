@@ -16,7 +16,7 @@ namespace {
 // At the origin, 0.5 m high, looking along +x.
 const Se3 kLooksAlongX = PoseAt({{0.0, 0.0, 0.5}, 0.0, 0.0});
 
-OrientedBox CubeAt(double x, double y, double size_m) {
+PlacedBox CubeAt(double x, double y, double size_m) {
   return {Standing(x, y, 0.5), Eigen::Vector3d::Constant(size_m)};
 }
 
@@ -25,7 +25,7 @@ Camera SmallCamera() {
 }
 
 TEST(DistanceTo, IsZeroInsideAndTheStraightWayOutside) {
-  const OrientedBox turned{Standing(1.0, 0.0, 0.0, 0.25 * std::numbers::pi), {1.0, 1.0, 1.0}};
+  const PlacedBox turned{Standing(1.0, 0.0, 0.0, 0.25 * std::numbers::pi), {1.0, 1.0, 1.0}};
   EXPECT_DOUBLE_EQ(DistanceTo(turned, {1.0, 0.1, 0.2}), 0.0);
   EXPECT_NEAR(DistanceTo(turned, {0.0, 0.0, 0.0}), 1.0 - std::sqrt(0.5), 1e-9);
 }
@@ -35,19 +35,19 @@ TEST(MayBeInView, IsFalseBehindBesideAndAboveThePicture) {
   EXPECT_TRUE(MayBeInView(CubeAt(2.0, 0.0, 0.5), camera, kLooksAlongX, 0.0));
   EXPECT_FALSE(MayBeInView(CubeAt(-2.0, 0.0, 0.5), camera, kLooksAlongX, 0.0));
   EXPECT_FALSE(MayBeInView(CubeAt(2.0, 2.0, 0.5), camera, kLooksAlongX, 0.0));
-  OrientedBox above = CubeAt(2.0, 0.0, 0.5);
+  PlacedBox above = CubeAt(2.0, 0.0, 0.5);
   above.T_world_box.translation.z() = 2.0;
   EXPECT_FALSE(MayBeInView(above, camera, kLooksAlongX, 0.0));
 }
 
 TEST(MayBeInView, IsTrueForABoxAroundTheCameraAndForABoxAcrossThePicture) {
   EXPECT_TRUE(MayBeInView(CubeAt(0.0, 0.0, 1.0), SmallCamera(), kLooksAlongX, 0.0));
-  const OrientedBox beam{Standing(2.0, 0.0, 0.5), {0.1, 20.0, 0.1}};
+  const PlacedBox beam{Standing(2.0, 0.0, 0.5), {0.1, 20.0, 0.1}};
   EXPECT_TRUE(MayBeInView(beam, SmallCamera(), kLooksAlongX, 0.0));
 }
 
 TEST(MayBeInView, CountsWhatIsWithinTheMargin) {
-  const OrientedBox box = CubeAt(2.0, 1.4, 0.4);  // ends 4 px left of the picture
+  const PlacedBox box = CubeAt(2.0, 1.4, 0.4);  // ends 4 px left of the picture
   EXPECT_FALSE(MayBeInView(box, SmallCamera(), kLooksAlongX, 1.0));
   EXPECT_TRUE(MayBeInView(box, SmallCamera(), kLooksAlongX, 10.0));
 }
@@ -62,8 +62,8 @@ TEST(ViewOf, MeasuresABoxInTheMiddle) {
 }
 
 TEST(ViewOf, SeesLessBehindAnotherBoxAndAtTheEdge) {
-  const OrientedBox cube = CubeAt(2.0, 0.0, 0.4);
-  const OrientedBox screen{Standing(1.0, 0.25, 0.5), {0.1, 0.5, 0.5}};  // hides the left half
+  const PlacedBox cube = CubeAt(2.0, 0.0, 0.4);
+  const PlacedBox screen{Standing(1.0, 0.25, 0.5), {0.1, 0.5, 0.5}};  // hides the left half
   const BoxView hidden = ViewOf(cube, SmallCamera(), kLooksAlongX, {&screen, 1});
   EXPECT_DOUBLE_EQ(hidden.inside_share, 1.0);
   EXPECT_NEAR(hidden.clear_share, 0.5, 0.01);
@@ -73,7 +73,7 @@ TEST(ViewOf, SeesLessBehindAnotherBoxAndAtTheEdge) {
 }
 
 TEST(ViewOf, LooksIntoABoxThatHoldsTheThing) {
-  const OrientedBox around = CubeAt(2.0, 0.0, 0.8);
+  const PlacedBox around = CubeAt(2.0, 0.0, 0.8);
   EXPECT_DOUBLE_EQ(
       ViewOf(CubeAt(2.0, 0.0, 0.4), SmallCamera(), kLooksAlongX, {&around, 1}).clear_share, 1.0);
 }

@@ -13,7 +13,7 @@ constexpr int kNumPoints = 20000;
 constexpr double kRoot = 1.22074408460575947536;
 
 // Share of a's volume that is in b.
-double ShareInside(const OrientedBox& a, const OrientedBox& b) {
+double ShareInside(const PlacedBox& a, const PlacedBox& b) {
   const Se3 T_b_a = b.T_world_box.Inverse() * a.T_world_box;
   const Eigen::Array3d step(1.0 / kRoot, 1.0 / (kRoot * kRoot), 1.0 / (kRoot * kRoot * kRoot));
   int num_inside = 0;
@@ -28,7 +28,7 @@ double ShareInside(const OrientedBox& a, const OrientedBox& b) {
 
 }  // namespace
 
-double IntersectionOverUnion(const OrientedBox& a, const OrientedBox& b) {
+double IntersectionOverUnion(const PlacedBox& a, const PlacedBox& b) {
   const double volume_a = a.size_m.prod();
   const double volume_b = b.size_m.prod();
   if (volume_a <= 0.0 || volume_b <= 0.0) return 0.0;

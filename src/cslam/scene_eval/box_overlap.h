@@ -8,6 +8,6 @@ namespace cslam {
 
 // Volume that two boxes share over the volume of both, 0 to 1, to about 0.01: counted on
 // points that fill the smaller one. 0 if a box has no volume.
-double IntersectionOverUnion(const OrientedBox& a, const OrientedBox& b);
+double IntersectionOverUnion(const PlacedBox& a, const PlacedBox& b);
 
 }  // namespace cslam

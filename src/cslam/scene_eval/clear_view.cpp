@@ -21,7 +21,7 @@ constexpr double kInnerShare =
 constexpr double kNearM = 0.1;  // nearer points are not projected
 constexpr double kSameTimeS = 1e-6;  // stamps are rounded to microseconds
 
-std::vector<Eigen::Vector3d> SamplesOf(const OrientedBox& box) {
+std::vector<Eigen::Vector3d> SamplesOf(const PlacedBox& box) {
   const auto share = [](int i) { return kInnerShare * (i / (kSamplesPerAxis - 1.0) - 0.5); };
   std::vector<Eigen::Vector3d> samples;
   for (int x = 0; x < kSamplesPerAxis; ++x)
@@ -34,7 +34,7 @@ std::vector<Eigen::Vector3d> SamplesOf(const OrientedBox& box) {
 }
 
 // How far along the way from the camera to a point inside the box the box begins, 0 to 1.
-double EntryShare(const OrientedBox& box, const Eigen::Vector3d& camera_world,
+double EntryShare(const PlacedBox& box, const Eigen::Vector3d& camera_world,
                   const Eigen::Vector3d& p_world) {
   const Se3 T_box_world = box.T_world_box.Inverse();
   const Eigen::Vector3d from = T_box_world * camera_world;
@@ -48,7 +48,7 @@ double EntryShare(const OrientedBox& box, const Eigen::Vector3d& camera_world,
   return std::min(enter, 1.0);
 }
 
-double ClearShare(const OrientedBox& box, const Camera& camera, const Se3& T_world_camera,
+double ClearShare(const PlacedBox& box, const Camera& camera, const Se3& T_world_camera,
                   const cv::Mat& depth_m, double margin_m) {
   const Se3 T_camera_world = T_world_camera.Inverse();
   const std::vector<Eigen::Vector3d> samples = SamplesOf(box);
@@ -162,7 +162,7 @@ std::optional<PixelPlace> PixelOf(const Camera& camera, const Eigen::Vector3d& p
   return is_inside ? std::optional(pixel) : std::nullopt;
 }
 
-bool IsInFrustum(const OrientedBox& box, const Camera& camera, const Se3& T_world_camera,
+bool IsInFrustum(const PlacedBox& box, const Camera& camera, const Se3& T_world_camera,
                  const ClearViewOptions& options) {
   const Eigen::Vector3d middle = box.T_world_box.translation;
   if ((middle - T_world_camera.translation).norm() > options.max_distance_m) return false;

@@ -26,7 +26,7 @@ struct ClearViewOptions {
 
 // A place and the time in which a view of it counts.
 struct PlaceQuery {
-  OrientedBox box = {};
+  PlacedBox box = {};
   double from_s = 0.0;  // since the sequence's start
   double until_s = 0.0;
   int shown_instance = 0;  // not 0: enough pixels of this instance must be visible as well
@@ -46,7 +46,7 @@ struct PixelPlace {
 std::optional<PixelPlace> PixelOf(const Camera& camera, const Eigen::Vector3d& p_camera);
 
 // Whether the middle of the box is near enough and enough of its points are in the picture.
-bool IsInFrustum(const OrientedBox& box, const Camera& camera, const Se3& T_world_camera,
+bool IsInFrustum(const PlacedBox& box, const Camera& camera, const Se3& T_world_camera,
                  const ClearViewOptions& options);
 
 }  // namespace cslam

@@ -19,7 +19,7 @@ namespace {
 
 // A place something left for good within the run.
 struct FormerPlace {
-  OrientedBox box;
+  PlacedBox box;
   double left_s = 0.0;
 };
 

@@ -26,7 +26,7 @@ struct OpenPlace {
 std::vector<OpenPlace> PlacesOf(const TrueObject& object, double start_s, double end_s) {
   std::vector<OpenPlace> places;
   const auto add = [&](const Se3& T_world_object) -> OpenPlace& {
-    const OrientedBox box = BoxOf(object, T_world_object);
+    const PlacedBox box = BoxOf(object, T_world_object);
     places.push_back({.place = {.instance = object.instance,
                                 .class_id = object.class_id,
                                 .name = object.name,

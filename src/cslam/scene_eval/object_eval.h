@@ -21,7 +21,7 @@ struct TruePlace {
   int instance = 0;
   int class_id = -1;
   std::string name = {};
-  OrientedBox box = {};
+  PlacedBox box = {};
   // Must be found. If not, an object reported here is neither right nor wrong: the thing was never
   // clearly seen here, is being carried, or left and the place was not looked at again.
   bool is_required = false;

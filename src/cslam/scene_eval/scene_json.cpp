@@ -29,7 +29,7 @@ Json ToJson(const std::optional<Eigen::Vector3d>& place) {
   return place ? ToJson(*place) : Json(nullptr);
 }
 
-Json ToJson(const OrientedBox& box) {
+Json ToJson(const PlacedBox& box) {
   const Eigen::Quaterniond& q = box.T_world_box.rotation;
   return {{"center_m", ToJson(box.T_world_box.translation)},
           {"size_m", ToJson(box.size_m)},

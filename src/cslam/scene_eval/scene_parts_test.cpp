@@ -40,11 +40,11 @@ TEST(AssignPairs, LeavesAloneWhatBelongsToNothing) {
 }
 
 TEST(IntersectionOverUnion, IsThatOfShiftedAndTurnedBoxes) {
-  const OrientedBox box{test::At({1.0, 2.0, 3.0}), {1.0, 1.0, 1.0}};
-  const OrientedBox half{test::At({1.5, 2.0, 3.0}), {1.0, 1.0, 1.0}};
-  const OrientedBox inner{test::At({1.0, 2.0, 3.0}), {0.5, 1.0, 1.0}};
-  const OrientedBox far{test::At({4.0, 2.0, 3.0}), {1.0, 1.0, 1.0}};
-  OrientedBox turned = box;
+  const PlacedBox box{test::At({1.0, 2.0, 3.0}), {1.0, 1.0, 1.0}};
+  const PlacedBox half{test::At({1.5, 2.0, 3.0}), {1.0, 1.0, 1.0}};
+  const PlacedBox inner{test::At({1.0, 2.0, 3.0}), {0.5, 1.0, 1.0}};
+  const PlacedBox far{test::At({4.0, 2.0, 3.0}), {1.0, 1.0, 1.0}};
+  PlacedBox turned = box;
   turned.T_world_box.rotation =
       Eigen::AngleAxisd(0.25 * std::numbers::pi, Eigen::Vector3d::UnitZ());
   const double octagon = 2.0 * (std::numbers::sqrt2 - 1.0);  // area of two turned unit squares

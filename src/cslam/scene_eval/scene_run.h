@@ -21,8 +21,8 @@ namespace cslam {
 struct FoundObject {
   ReportedObject report = {};  // as told, in the run's own frame
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  OrientedBox box = {};          // its oriented extent
-  OrientedBox axis_extent = {};  // the paper's
+  PlacedBox box = {};          // its oriented extent
+  PlacedBox axis_extent = {};  // the paper's
 };
 
 // A loop or merge that a run accepted.

@@ -50,7 +50,7 @@ SceneTruth ReadSceneTruth(const std::filesystem::path& folder) {
   return truth;
 }
 
-OrientedBox BoxOf(const TrueObject& object, const Se3& T_world_object) {
+PlacedBox BoxOf(const TrueObject& object, const Se3& T_world_object) {
   return {.T_world_box = T_world_object * Se3(Eigen::Quaterniond::Identity(), object.box_center),
           .size_m = object.box_size_m};
 }

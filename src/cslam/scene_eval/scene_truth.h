@@ -33,7 +33,7 @@ struct SceneTruth {
 SceneTruth ReadSceneTruth(const std::filesystem::path& folder);
 
 // The box of an object, were it at that pose.
-OrientedBox BoxOf(const TrueObject& object, const Se3& T_world_object);
+PlacedBox BoxOf(const TrueObject& object, const Se3& T_world_object);
 
 // A stretch of time in which a rigid object rests in one place.
 struct Rest {
