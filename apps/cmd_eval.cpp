@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "cli_common.h"
+#include "cmd_eval_scene.h"
 #include "exit_codes.h"
 
 namespace cslam {
@@ -256,11 +257,11 @@ void AddRpeCommand(CLI::App& eval, int& exit_code) {
 }  // namespace
 
 CLI::App* AddEvalCommand(CLI::App& root, int& exit_code) {
-  CLI::App* const app =
-      root.add_subcommand("eval", "Compare an estimated trajectory with a reference");
+  CLI::App* const app = root.add_subcommand("eval", "Compare what a run says with the truth");
   app->require_subcommand(1);
   AddAteCommand(*app, exit_code);
   AddRpeCommand(*app, exit_code);
+  AddSceneEvalCommands(*app, exit_code);
   AddExamples(*app, {"eval ate data/tum_fr1_desk runs/desk",
                      "eval rpe groundtruth.txt trajectory.txt --delta 1 --delta-unit s"});
   return app;

@@ -8,7 +8,8 @@ class App;
 
 namespace cslam {
 
-// Adds "eval ate" and "eval rpe", which compare an estimated trajectory with a reference.
+// Adds "eval ate" and "eval rpe", which compare an estimated trajectory with a reference, and what
+// cmd_eval_scene.h has.
 // exit_code must live until the command line is parsed.
 CLI::App* AddEvalCommand(CLI::App& root, int& exit_code);
 
