@@ -77,12 +77,26 @@ void PrintMaps(const std::vector<MapSummary>& maps) {
   fmt::print("\n{}", table.Text());
 }
 
+void PrintSessions(const std::vector<SessionSummary>& sessions) {
+  if (sessions.size() < 2) return;
+  constexpr TextAlign kRight = TextAlign::kRight;
+  TextTable table(
+      {{"session"}, {"keyframes", kRight}, {"first [s]", kRight}, {"last [s]", kRight}});
+  for (const SessionSummary& session : sessions) {
+    const bool has_stamps = session.num_keyframes > 0;
+    table.AddRow({session.name, fmt::format("{}", session.num_keyframes),
+                  has_stamps ? FormatStamp(session.first) : "-",
+                  has_stamps ? FormatStamp(session.last) : "-"});
+  }
+  fmt::print("\n{}", table.Text());
+}
+
 int PrintInfo(const InfoArguments& arguments) {
   const SavedMap saved = LoadMap(arguments.file);
   const std::vector<MapSummary> maps = SummariseMaps(saved.map);
   const std::uintmax_t size_bytes = fs::file_size(arguments.file);
   if (arguments.json) {
-    fmt::print("{}", FormatMapInfo(saved.info, maps, size_bytes));
+    fmt::print("{}", FormatMapInfo(saved, size_bytes));
     return kExitOk;
   }
   TextTable table;
@@ -90,13 +104,16 @@ int PrintInfo(const InfoArguments& arguments) {
   table.AddRow({"size", fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(size_bytes))});
   table.AddRow({"format", fmt::format("{}", kMapFormatVersion)});
   table.AddRow({"written by", saved.info.program});
-  table.AddRow({"created", saved.info.created});
+  table.AddRow({"created", saved.info.created.empty() ? "-" : saved.info.created});
   table.AddRow({"camera", CameraText(saved.info.camera)});
   table.AddRow({"maps", fmt::format("{}", maps.size())});
   table.AddRow({"keyframes", fmt::format("{}", saved.map.num_keyframes())});
   table.AddRow({"points", fmt::format("{}", saved.map.num_points())});
+  table.AddRow({"objects", fmt::format("{}", saved.map.Objects().size())});
+  table.AddRow({"loops", fmt::format("{}", saved.map.loops().size())});
   fmt::print("{}", table.Text());
   PrintMaps(maps);
+  PrintSessions(SummariseSessions(saved));
   return kExitOk;
 }
 

@@ -38,10 +38,10 @@ struct RelocaliseCommand {
 
 std::shared_ptr<const MapSnapshot> LoadSnapshot(const fs::path& path, const Camera& camera) {
   SavedMap saved = LoadMap(path);
-  RequireSameCamera(path, saved.info, camera);
   if (saved.map.num_keyframes() == 0) {
     throw Error("the map '{}' is empty: nothing was tracked when it was saved", path.string());
   }
+  RequireSameCamera(path, saved.info, camera);
   auto snapshot = std::make_shared<MapSnapshot>();
   snapshot->map = saved.map.Snapshot();
   return snapshot;

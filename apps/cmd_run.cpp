@@ -113,11 +113,11 @@ void Announce(const DatasetReader& dataset, const fs::path& folder) {
 std::optional<SavedMap> LoadEarlierMap(const RunCommand& command, const Camera& camera) {
   if (!command.map) return std::nullopt;
   SavedMap saved = LoadMap(*command.map);
-  RequireSameCamera(*command.map, saved.info, camera);
   if (saved.map.num_keyframes() == 0) {
     throw Error("the map '{}' is empty: nothing was tracked when it was saved",
                 command.map->string());
   }
+  RequireSameCamera(*command.map, saved.info, camera);
   return saved;
 }
 

@@ -44,8 +44,9 @@ class MapTest(CliTestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("changing-slam test", result.stdout)
         self.assertIn("fx 517.3", result.stdout)
-        rows = [line.split() for line in result.stdout.splitlines()[-2:]]
-        self.assertEqual([row[:2] for row in rows], [["0", "5"], ["3", "3"]])
+        rows = [line.split()[:2] for line in result.stdout.splitlines()]
+        for row in (["0", "5"], ["3", "3"], ["morning", "8"], ["noon", "0"]):
+            self.assertIn(row, rows)
 
     def test_info_as_json(self):
         info = json.loads(run("map", "info", self.map, "--json").stdout)
@@ -53,6 +54,8 @@ class MapTest(CliTestCase):
         self.assertEqual(info["created"], "2026-11-22T04:00:00Z")
         self.assertEqual(info["size_bytes"], self.map.stat().st_size)
         self.assertEqual([m["keyframes"] for m in info["maps"]], [5, 3])
+        self.assertEqual([s["keyframes"] for s in info["sessions"]], [8, 0])
+        self.assertEqual((info["loops"], info["objects"], info["changes"]), (1, 1, 1))
 
     def test_is_readable_as_formats_md_says(self):
         with contextlib.closing(sqlite3.connect(self.map)) as file:

@@ -96,13 +96,24 @@ TEST(KeyframeTrajectory, IsInOrderOfTimeWithoutRepetition) {
 }
 
 TEST(FormatMapInfo, IsCompleteAndTakesAnyName) {
-  const Map map = test::MakeAtlas();
-  MapFileInfo info = test::MakeMapFileInfo();
-  info.camera.name = "a\"b\xFF";
-  const std::string text = FormatMapInfo(info, SummariseMaps(map), 1234);
+  SavedMap saved{.info = test::MakeMapFileInfo(), .map = test::MakeAtlas()};
+  saved.info.camera.name = "a\"b\xFF";
+  const std::string text = FormatMapInfo(saved, 1234);
   EXPECT_THAT(text, HasSubstr("\"size_bytes\": 1234"));
   EXPECT_THAT(text, HasSubstr("\"first_stamp\": \"0.009000\""));
   EXPECT_THAT(text, HasSubstr("a\\\"b"));
+}
+
+TEST(SummariseSessions, TellsWhoMadeWhichKeyframes) {
+  SavedMap saved{.info = test::MakeMapFileInfo(), .map = test::MakeAtlas()};
+  test::AddRowOfKeyframes(saved.map, MapId(5), 2, 8);
+  const auto sessions = SummariseSessions(saved);
+  ASSERT_EQ(sessions.size(), 2U);
+  EXPECT_EQ(sessions[0].name, "morning");
+  EXPECT_EQ(sessions[0].num_keyframes, 8U);
+  EXPECT_EQ(sessions[1].name, "noon");
+  EXPECT_EQ(sessions[1].num_keyframes, 2U);
+  EXPECT_LT(sessions[1].first, sessions[1].last);
 }
 
 TEST(WriteMapJson, WritesOneLineForEachKeyframeAndPoint) {

@@ -42,6 +42,14 @@ Json MapJson(const MapSummary& map) {
           {"points_box", BoxJson(map.points_box)}};
 }
 
+Json SessionJson(const SessionSummary& session) {
+  const bool has_stamps = session.num_keyframes > 0;
+  return {{"name", session.name},
+          {"keyframes", session.num_keyframes},
+          {"first_stamp", has_stamps ? Json(FormatStamp(session.first)) : Json(nullptr)},
+          {"last_stamp", has_stamps ? Json(FormatStamp(session.last)) : Json(nullptr)}};
+}
+
 Json HeadJson(const MapFileInfo& info) {
   return {{"format", "map"},
           {"version", kMapFormatVersion},
@@ -136,14 +144,34 @@ MapId LargestMapOf(const std::vector<MapSummary>& maps) {
   return largest->map;
 }
 
-std::string FormatMapInfo(const MapFileInfo& info, const std::vector<MapSummary>& maps,
-                          std::uintmax_t size_bytes) {
-  Json json = HeadJson(info);
+std::vector<SessionSummary> SummariseSessions(const SavedMap& saved) {
+  const std::vector<std::string>& names = saved.info.sessions;
+  std::vector<SessionSummary> sessions(saved.map.sessions().size());
+  for (std::size_t i = 0; i < sessions.size(); ++i)
+    sessions[i].name = i < names.size() ? names[i] : "";
+  for (const KeyframeId id : saved.map.Keyframes()) {
+    SessionSummary& session = sessions[saved.map.SessionOf(id)];
+    const Stamp stamp = saved.map.FindKeyframe(id)->data->stamp;
+    const bool is_first = session.num_keyframes++ == 0;
+    session.first = is_first ? stamp : std::min(session.first, stamp);
+    session.last = is_first ? stamp : std::max(session.last, stamp);
+  }
+  return sessions;
+}
+
+std::string FormatMapInfo(const SavedMap& saved, std::uintmax_t size_bytes) {
+  Json json = HeadJson(saved.info);
   json["size_bytes"] = size_bytes;
-  json["levels"] = info.level_scales;
+  json["levels"] = saved.info.level_scales;
   json["maps"] = Json::array();
-  for (const MapSummary& map : maps)
+  for (const MapSummary& map : SummariseMaps(saved.map))
     json["maps"].push_back(MapJson(map));
+  json["sessions"] = Json::array();
+  for (const SessionSummary& session : SummariseSessions(saved))
+    json["sessions"].push_back(SessionJson(session));
+  json["loops"] = saved.map.loops().size();
+  json["objects"] = saved.map.Objects().size();
+  json["changes"] = saved.map.changes().size();
   return Dump(json, 2) + "\n";
 }
 

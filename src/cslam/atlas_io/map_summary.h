@@ -28,9 +28,18 @@ std::vector<MapSummary> SummariseMaps(const MapView& map);
 // The map with the most keyframes (of equals the first). Throws Error if there is none.
 MapId LargestMapOf(const std::vector<MapSummary>& maps);
 
+// One run that added to the maps.
+struct SessionSummary {
+  std::string name;
+  std::size_t num_keyframes = 0;
+  Stamp first, last;  // of its keyframes, if it has any
+};
+
+// All sessions, in order.
+std::vector<SessionSummary> SummariseSessions(const SavedMap& saved);
+
 // What "map info --json" prints (docs/formats.md).
-std::string FormatMapInfo(const MapFileInfo& info, const std::vector<MapSummary>& maps,
-                          std::uintmax_t size_bytes);
+std::string FormatMapInfo(const SavedMap& saved, std::uintmax_t size_bytes);
 
 // All keyframes and points as one JSON object (docs/formats.md). The file appears under its name
 // only when complete.
