@@ -28,7 +28,7 @@ const std::vector<std::string>& RepeatableFiles() {
   static const std::vector<std::string> kFiles = {
       "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "loops.json",
       "map.ply",        "grid.yaml",           "grid.pgm",      "config.yaml",
-      "trajectory.svg"};
+      "trajectory.svg", "objects.json",        "changes.json"};
   return kFiles;
 }
 
@@ -72,10 +72,11 @@ class RunWriterTest : public testing::Test {
 TEST_F(RunWriterTest, WritesEveryFileAndNoOther) {
   const FinishedRun run = RunInto(folder_.path(), dataset_);
   Write(run, dataset_);
-  EXPECT_EQ(FilesIn(folder_.path()),
-            (std::set<std::string>{"trajectory.txt", "trajectory_live.txt", "keyframes.txt",
-                                   "frames.csv", "loops.json", "map.ply", "config.yaml", "run.json",
-                                   "trajectory.svg", "grid.yaml", "grid.pgm"}));
+  EXPECT_EQ(
+      FilesIn(folder_.path()),
+      (std::set<std::string>{"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "frames.csv",
+                             "loops.json", "map.ply", "config.yaml", "run.json", "trajectory.svg",
+                             "grid.yaml", "grid.pgm", "objects.json", "changes.json"}));
   const Trajectory poses = ReadTrajectory(folder_ / "trajectory.txt");
   ASSERT_EQ(poses.size(), static_cast<std::size_t>(kNumFrames));
   EXPECT_EQ(FormatStamp(poses[3].stamp), FormatStamp(dataset_.stamp(3)));
@@ -119,7 +120,7 @@ TEST_F(RunWriterTest, WritesTheFolderWhenNothingWasTracked) {
   const FinishedRun run = RunInto(folder_ / "out", dataset_);
   PrepareRunFolder(folder_ / "out");
   Write(run, dataset_);
-  EXPECT_EQ(FilesIn(folder_ / "out").size(), 9U);
+  EXPECT_EQ(FilesIn(folder_ / "out").size(), 11U) << "all but the grid";
   EXPECT_TRUE(ReadTrajectory(folder_ / "out" / "trajectory.txt").empty());
   EXPECT_THAT(FormatRunSummary(run.report), HasSubstr("0.0 % (0 of 20)"));
 }

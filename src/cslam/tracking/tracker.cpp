@@ -243,7 +243,14 @@ bool Tracker::EstimateFromMotion(CurrentFrame& current) {
 void Tracker::FollowMerges() {
   if (!history_.reference().valid()) return;
   const auto anchored = snapshot_->map.Resolve(history_.reference());
-  if (anchored) map_ = snapshot_->map.FindKeyframe(anchored->keyframe)->map;
+  if (anchored) EnterMap(snapshot_->map.FindKeyframe(anchored->keyframe)->map);
+}
+
+// Poses are in the world of that map from now on.
+void Tracker::EnterMap(MapId map) {
+  if (map == map_) return;
+  map_ = map;
+  observer_.StartWorld();
 }
 
 // Goes on at a place that was recognised, if the map is found there.
@@ -259,7 +266,7 @@ void Tracker::Relocalise(CurrentFrame& current, const PlaceHint& hint) {
   last_data_.reset();  // nothing is known of the way here
   current.is_tracked = true;
   state_ = TrackingState::kTracking;
-  map_ = snapshot_->map.FindKeyframe(current.reference)->map;
+  EnterMap(snapshot_->map.FindKeyframe(current.reference)->map);
   current.result.reason = fmt::format("relocalised: {}, {} inliers", hint.reason, inliers);
 }
 

@@ -57,6 +57,7 @@ class Tracker {
   bool EstimateFromPlace(CurrentFrame& current, const PlaceHint& hint);
   void Relocalise(CurrentFrame& current, const PlaceHint& hint);
   void FollowMerges();
+  void EnterMap(MapId map);
   void RefineWithLocalMap(CurrentFrame& current);
   FrameMatches SetHeldBackAside(const FrameFeatures& features, FrameMatches& matches) const;
   void WatchObjects(const CurrentFrame& current, const Detections* detections);
