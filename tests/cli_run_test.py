@@ -12,7 +12,8 @@ import tiny_dataset
 from cli_support import CliTestCase, binary, run
 
 RUN_FILES = {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "frames.csv", "loops.json", "map.ply",
-             "config.yaml", "run.json", "trajectory.svg", "grid.yaml", "grid.pgm"}
+             "config.yaml", "run.json", "trajectory.svg", "grid.yaml", "grid.pgm", "objects.json",
+             "changes.json"}
 REPEATABLE_FILES = RUN_FILES - {"frames.csv", "run.json"}  # these two hold times
 
 
