@@ -66,7 +66,9 @@ std::string WhyNoSeed(const std::string& text) {
   return fmt::format("'{}' is no whole number from 0 to 2^64 - 1", text);
 }
 
-void AddStoryOptions(CLI::App& app, RenderRequest& request) {
+}  // namespace
+
+void AddSizeOptions(CLI::App& app, RenderRequest& request) {
   app.add_option("--frames", request.num_frames, "At most so many; the whole story unless told")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--fps", request.fps, "Frames per second; the story takes as long as ever")
@@ -76,6 +78,12 @@ void AddStoryOptions(CLI::App& app, RenderRequest& request) {
          "--size", [&request](const std::string& text) { ParseSize(text, request); },
          "Size of the images (640x480 unless told)")
       ->type_name("WxH");
+}
+
+namespace {
+
+void AddStoryOptions(CLI::App& app, RenderRequest& request) {
+  AddSizeOptions(app, request);
   app.add_option_function<std::string>(
          "--noise", [&request](const std::string& name) { request.noise = ParseNoise(name); },
          "As such a sensor sees (that of the sequence unless told); off: exact")

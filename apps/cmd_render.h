@@ -8,6 +8,11 @@ class App;
 
 namespace cslam {
 
+struct RenderRequest;
+
+// Adds --frames, --fps and --size. request must live until the command line is parsed.
+void AddSizeOptions(CLI::App& app, RenderRequest& request);
+
 // Adds "render" and "list" below "dataset". exit_code must live until the command line is parsed.
 void AddRenderCommands(CLI::App& dataset, int& exit_code);
 

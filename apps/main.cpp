@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "cli_common.h"
+#include "cmd_benchmark.h"
 #include "cmd_config.h"
 #include "cmd_dataset.h"
 #include "cmd_eval.h"
@@ -63,6 +64,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   AddRunCommand(root, exit_code);
   AddEvalCommand(root, exit_code);
   AddDatasetCommand(root, exit_code);
+  AddBenchmarkCommand(root, exit_code);
   AddMapCommand(root, exit_code);
   AddRelocaliseCommand(root, exit_code);
   AddModelCommand(root, exit_code);

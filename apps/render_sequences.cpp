@@ -5,6 +5,7 @@
 #include "cslam/assets/procedural_props.h"
 #include "cslam/dataset/sequence_writer.h"
 #include "cslam/util/options.h"
+#include "cslam/util/stopwatch.h"
 
 #include <fmt/format.h>
 #include <opencv2/core/utility.hpp>
@@ -38,7 +39,9 @@ struct Task {
   std::filesystem::path folder;
 };
 
-SequenceEntry FindEntry(std::string_view name) {
+}  // namespace
+
+SequenceEntry FindSequence(std::string_view name) {
   std::vector<std::string> names;
   for (const SequenceEntry& entry : RenderableSequences()) {
     if (name == entry.name) return entry;
@@ -49,6 +52,8 @@ SequenceEntry FindEntry(std::string_view name) {
                                nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
 }
 
+namespace {
+
 // Throws UsageError for names that are unknown or there twice.
 std::vector<SequenceEntry> FindEntries(const std::vector<std::string>& names) {
   if (names.size() == 1 && names[0] == kAllNames) return RenderableSequences();
@@ -57,7 +62,7 @@ std::vector<SequenceEntry> FindEntries(const std::vector<std::string>& names) {
     if (*name == kAllNames) throw UsageError("'all' stands alone, without other names");
     if (std::find(names.begin(), name, *name) != name)
       throw UsageError(fmt::format("'{}' is named twice", *name));
-    entries.push_back(FindEntry(*name));
+    entries.push_back(FindSequence(*name));
   }
   return entries;
 }
@@ -177,11 +182,16 @@ WriteOutcome Write(const Rendering& rendering, const Task& task, const RenderArg
   }
 }
 
-int Render(const Task& task, const RenderArguments& arguments, const AssetStatus& assets) {
-  const Stage stage{*assets.props, assets.folder ? &*assets.folder : nullptr};
+Rendering Describe(const Task& task, const RenderArguments& arguments, const Stage& stage) {
   Rendering rendering = MakeRendering(task.entry, arguments.request, stage);
   rendering.record.program = fmt::format("changing-slam {} ({})", Version(), GitCommit());
   rendering.record.command = CommandOf(rendering.record);
+  return rendering;
+}
+
+int Render(const Task& task, const RenderArguments& arguments, const AssetStatus& assets) {
+  const Stage stage{*assets.props, assets.folder ? &*assets.folder : nullptr};
+  const Rendering rendering = Describe(task, arguments, stage);
   ExistingFolder existing = arguments.existing;
   double needed_bytes = RoughBytes(task.entry, arguments.request);
   const bool may_be_complete =
@@ -196,7 +206,35 @@ int Render(const Task& task, const RenderArguments& arguments, const AssetStatus
   return kExitInterrupted;
 }
 
+RenderEstimate Estimate(const Task& task, const RenderArguments& arguments,
+                        const AssetStatus& assets) {
+  constexpr int kNumTimed = 3;
+  const Stage stage{*assets.props, assets.folder ? &*assets.folder : nullptr};
+  const Rendering rendering = Describe(task, arguments, stage);
+  RenderEstimate estimate;
+  estimate.num_frames = rendering.sequence.size();
+  PrepareSequenceFolder(task.folder, rendering.record, ExistingFolder::kResume);
+  const int count = std::min(kNumTimed, estimate.num_frames);
+  const Stopwatch watch;
+  const double frame_bytes = MeasureFrameBytes(rendering.sequence, task.folder, count);
+  const double frame_s = 1e-3 * watch.ElapsedMs() / count;
+  estimate.bytes = kOtherBytes + estimate.num_frames * frame_bytes;
+  estimate.seconds =
+      estimate.num_frames * frame_s / (arguments.jobs > 0 ? arguments.jobs : NumCores());
+  return estimate;
+}
+
 }  // namespace
+
+RenderEstimate EstimateRendering(const RenderArguments& arguments) {
+  const std::vector<Task> tasks = MakeTasks(arguments);
+  CSLAM_CHECK(tasks.size() == 1);
+  try {
+    return Estimate(tasks[0], arguments, LoadAssets(tasks, arguments.look));
+  } catch (const Interrupted&) {
+    return {};
+  }
+}
 
 int RenderSequences(const RenderArguments& arguments) {
   const std::vector<Task> tasks = MakeTasks(arguments);
