@@ -5,6 +5,9 @@
 
 Runs `changing-slam run` on each sequence, threaded at sensor rate and at full speed several times
 and once inline, and prints the medians. Times are of this machine: let nothing else run.
+
+`changing-slam benchmark` is for other questions: it compares the object layer on and off, on sequences
+that it renders, with truth about objects and changes (docs/benchmark.md).
 """
 
 import argparse
