@@ -98,7 +98,7 @@ class ChangeJudge {
   }
 
   static bool IsEarly(const KnowableChange& truth, const JudgedReport& report) {
-    return report.time_s < truth.first_view_s() - kSameTimeS;
+    return !truth.first_glimpse_s || report.time_s < *truth.first_glimpse_s - kSameTimeS;
   }
 
   void Match() {
@@ -119,7 +119,7 @@ class ChangeJudge {
       JudgedReport& report = evaluation_.reports[*partners[i]];
       report.verdict = ChangeVerdict::kMatched;
       change.report = partners[i];
-      change.delay_s = std::max(0.0, report.time_s - change.truth.last_view_s());
+      change.delay_s = std::max(0.0, report.time_s - change.truth.known_s());
       if (change.truth.from && change.truth.old_view_s)
         change.delay_from_old_place_s = report.time_s - *change.truth.old_view_s;
     }

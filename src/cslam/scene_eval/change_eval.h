@@ -19,7 +19,7 @@ namespace cslam {
 enum class ChangeVerdict {
   kMatched,
   kFalse,
-  kEarly,      // right, but told before anything of it could be seen
+  kEarly,      // right, but told before any part of it came into view
   kPart,       // only a part of a true change: a thing's removal where it was moved
   kNotJudged,  // of a change nobody could know of
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/scene_eval/clear_view.h"
 
+#include "cslam/dataset/truth_lookup.h"
 #include "cslam/util/check.h"
 
 #include <opencv2/core.hpp>
@@ -139,6 +140,30 @@ class ViewFinder {
 };
 
 }  // namespace
+
+PlaceQuery NoQuery() {
+  constexpr double kForever = std::numeric_limits<double>::infinity();
+  return {.from_s = kForever, .until_s = -kForever};
+}
+
+PlaceQuery ReplacementQuery(const SceneTruth& truth, int instance, double left_s, double until_s) {
+  constexpr double kSameChangeS = 1e-3;  // JSON rounds
+  for (const TrueChange& change : truth.changes.changes) {
+    const bool is_it = change.kind == ChangeKind::kReplaced && change.instance == instance &&
+                       change.time_s >= left_s - kSameChangeS;
+    const TrueObject* object = is_it ? FindObject(truth.objects, change.new_instance) : nullptr;
+    if (object == nullptr || !change.to) continue;
+    PlaceQuery query{.box = BoxOf(*object, *change.to), .from_s = change.time_s};
+    query.until_s = until_s;
+    query.shown_instance = object->class_id >= 0 ? object->instance : 0;
+    for (const Rest& rest : RestsOf(*object)) {
+      if (rest.from_s <= change.time_s + kSameChangeS && rest.to_s > change.time_s)
+        query.until_s = std::min(until_s, rest.to_s);
+    }
+    return query;
+  }
+  return NoQuery();
+}
 
 std::vector<std::optional<double>> FirstClearViews(const SceneTruth& truth,
                                                    std::span<const PlaceQuery> queries,

@@ -32,6 +32,14 @@ struct PlaceQuery {
   int shown_instance = 0;  // not 0: enough pixels of this instance must be visible as well
 };
 
+// Never answered.
+PlaceQuery NoQuery();
+
+// Asks for what replaced a thing that left its place at that time (changes.json says what);
+// NoQuery() if nothing did. Who sees it knows that the old thing is gone, though it may hide the
+// place.
+PlaceQuery ReplacementQuery(const SceneTruth& truth, int instance, double left_s, double until_s);
+
 // For each query the time of the first frame of its first clear view, if there is one. Looks
 // through the frames once, and opens only depth images that may answer a question.
 std::vector<std::optional<double>> FirstClearViews(const SceneTruth& truth,

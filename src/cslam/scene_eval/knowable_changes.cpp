@@ -21,6 +21,21 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 // Changes of one thing, in order of time.
 using Chain = std::vector<KnowableChange>;
 
+// The least of a view that could tell anybody of a change.
+ClearViewOptions GlimpseOf(const ClearViewOptions& clear) {
+  ClearViewOptions glimpse = clear;
+  glimpse.min_clear_share = std::min(clear.min_clear_share, 0.2);
+  glimpse.min_frames = 1;
+  glimpse.min_picture_share = 0.0;
+  glimpse.max_distance_m = kForever;
+  return glimpse;
+}
+
+std::optional<double> Earlier(const std::optional<double>& a, const std::optional<double>& b) {
+  if (!a || !b) return a ? a : b;
+  return std::min(*a, *b);
+}
+
 // When a thing left the place it was at before the change: carried things leave before they arrive.
 double LeftAt(const TrueObject& object, const TrueChange& change) {
   double left_s = change.time_s;
@@ -167,22 +182,14 @@ class ChangeSurvey {
   }
 
   PlaceQuery NewPlace(const KnowableChange& change, double until_s) const {
-    if (!change.change.to) return {.from_s = kForever, .until_s = -kForever};
-    const bool is_replaced = change.change.kind == ChangeKind::kReplaced;
-    const TrueObject& object =
-        ObjectOf(is_replaced ? change.change.new_instance : change.change.instance);
-    if (is_replaced) until_s = LeavesAt(object, change.arrived_s);
+    if (!change.change.to) return NoQuery();
+    if (change.change.kind == ChangeKind::kReplaced)
+      return ReplacementQuery(truth_, change.change.instance, change.left_s, end_s_);
+    const TrueObject& object = ObjectOf(change.change.instance);
     return {.box = BoxOf(object, *change.change.to),
             .from_s = std::max(start_s_, change.arrived_s),
             .until_s = std::min(end_s_, until_s),
             .shown_instance = object.class_id >= 0 ? object.instance : 0};
-  }
-
-  double LeavesAt(const TrueObject& object, double arrived_s) const {
-    for (const Rest& rest : RestsOf(object)) {
-      if (rest.from_s <= arrived_s + kSameTimeS && rest.to_s > arrived_s) return rest.to_s;
-    }
-    return end_s_;
   }
 
   void LookAt(std::vector<KnowableChange>& changes) const {
@@ -193,8 +200,10 @@ class ChangeSurvey {
       queries.push_back(NewPlace(changes[i], next_left_s_[i]));
     }
     const auto views = FirstClearViews(truth_, queries, options_.clear_view);
+    const auto glimpses = FirstClearViews(truth_, queries, GlimpseOf(options_.clear_view));
     for (std::size_t i = 0; i < changes.size(); ++i) {
       KnowableChange& change = changes[i];
+      change.first_glimpse_s = Earlier(glimpses[3 * i + 1], glimpses[3 * i + 2]);
       change.old_view_s = views[3 * i + 1];
       change.new_view_s = views[3 * i + 2];
       if (change.change.from) change.from = queries[3 * i].box.T_world_box.translation;
@@ -222,11 +231,7 @@ class ChangeSurvey {
 
 }  // namespace
 
-double KnowableChange::first_view_s() const {
-  return std::min(old_view_s.value_or(kForever), new_view_s.value_or(kForever));
-}
-
-double KnowableChange::last_view_s() const {
+double KnowableChange::known_s() const {
   if (change.kind == ChangeKind::kRemoved) return old_view_s.value_or(kForever);
   if (change.kind == ChangeKind::kMoved)
     return std::max(old_view_s.value_or(kForever), new_view_s.value_or(kForever));

@@ -27,13 +27,14 @@ struct KnowableChange {
   // First clear views: of the old place afterwards, and of the thing at the new one.
   std::optional<double> old_view_s = {};
   std::optional<double> new_view_s = {};
+  // First time that any part worth speaking of was in view: of the old place, or of the thing at
+  // the new one. Nobody can tell of the change before.
+  std::optional<double> first_glimpse_s = {};
   // Why nobody could know of it; empty: it counts.
   std::string why_not = {};
 
   bool counts() const { return why_not.empty(); }
-  // From when something of it could be known, and from when all of it.
-  double first_view_s() const;
-  double last_view_s() const;
+  double known_s() const;  // from when all of it could be known: later than any report if never
 };
 
 // Changes of the classes asked for (of a replaced thing and what came both) from start_s to end_s,

@@ -19,6 +19,7 @@ namespace {
 
 // A place something left for good within the run.
 struct FormerPlace {
+  int instance = 0;
   PlacedBox box;
   double left_s = 0.0;
 };
@@ -36,22 +37,25 @@ std::vector<FormerPlace> FormerPlaces(const SceneTruth& truth, double start_s, d
                    Difference(later.T_world_object, rests[i].T_world_object).distance_m <
                        kSamePlaceM;
           });
-      if (!comes_back) places.push_back({BoxOf(object, rests[i].T_world_object), rests[i].to_s});
+      if (!comes_back)
+        places.push_back({object.instance, BoxOf(object, rests[i].T_world_object), rests[i].to_s});
     }
   }
   return places;
 }
 
-// Takes away the places that were not clearly seen again.
+// Takes away the places that were not clearly seen again, nor what replaced the thing there.
 std::vector<FormerPlace> SeenAgain(const SceneTruth& truth, const std::vector<FormerPlace>& places,
                                    double end_s, const ClearViewOptions& options) {
   std::vector<PlaceQuery> queries;
-  for (const FormerPlace& place : places)
+  for (const FormerPlace& place : places) {
     queries.push_back({.box = place.box, .from_s = place.left_s, .until_s = end_s});
+    queries.push_back(ReplacementQuery(truth, place.instance, place.left_s, end_s));
+  }
   const auto views = FirstClearViews(truth, queries, options);
   std::vector<FormerPlace> seen;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (views[i]) seen.push_back(places[i]);
+    if (views[2 * i] || views[2 * i + 1]) seen.push_back(places[i]);
   }
   return seen;
 }

@@ -33,9 +33,10 @@ struct GhostCount {
   std::optional<double> Share() const;  // 0 to 1; nothing for an empty map
 };
 
-// A ghost lies within a margin of the box of an object that has left and whose place was clearly
-// seen again, and no depth image after it left shows a surface near it (people do not count). Of
-// all classes, with name or without. Throws Error if the run has no map.ply.
+// A ghost lies within a margin of the box of an object that has left and whose place (or what has
+// replaced it there) was clearly seen again, and no depth image after it left shows a surface near
+// it (people do not count). Of all classes, with name or without. Throws Error if the run has no
+// map.ply.
 GhostCount CountGhosts(const SceneTruth& truth, const SceneRun& run,
                        const GhostOptions& options = {});
 

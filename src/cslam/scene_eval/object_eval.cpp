@@ -19,19 +19,23 @@ namespace {
 struct OpenPlace {
   TruePlace place;
   PlaceQuery query;
+  PlaceQuery replacement = NoQuery();
   bool is_former = false;  // the thing has left it
 };
 
 // The places of one thing up to a time.
-std::vector<OpenPlace> PlacesOf(const TrueObject& object, double start_s, double end_s) {
+std::vector<OpenPlace> PlacesOf(const SceneTruth& truth, const TrueObject& object, double start_s,
+                                double end_s) {
   std::vector<OpenPlace> places;
   const auto add = [&](const Se3& T_world_object) -> OpenPlace& {
-    const PlacedBox box = BoxOf(object, T_world_object);
-    places.push_back({.place = {.instance = object.instance,
-                                .class_id = object.class_id,
-                                .name = object.name,
-                                .box = box},
-                      .query = {.box = box, .from_s = start_s, .until_s = end_s}});
+    OpenPlace open;
+    open.place.instance = object.instance;
+    open.place.class_id = object.class_id;
+    open.place.name = object.name;
+    open.place.box = open.query.box = BoxOf(object, T_world_object);
+    open.query.from_s = start_s;
+    open.query.until_s = end_s;
+    places.push_back(std::move(open));
     return places.back();
   };
   for (const Rest& rest : RestsOf(object)) {
@@ -40,6 +44,8 @@ std::vector<OpenPlace> PlacesOf(const TrueObject& object, double start_s, double
     open.is_former = rest.to_s <= end_s;
     open.query.from_s = std::max(start_s, open.is_former ? rest.to_s : rest.from_s);
     open.query.shown_instance = open.is_former ? 0 : object.instance;
+    if (open.is_former)
+      open.replacement = ReplacementQuery(truth, object.instance, rest.to_s, end_s);
   }
   const Placement state = StateAt(object, end_s);
   if (state.presence == Presence::kMoving) {
@@ -180,17 +186,18 @@ std::vector<TruePlace> TruePlacesAt(const SceneTruth& truth, double start_s, dou
   std::vector<OpenPlace> open;
   for (const TrueObject& object : truth.objects.objects) {
     if (!classes.contains(object.class_id) || object.is_deformable) continue;
-    for (OpenPlace& place : PlacesOf(object, start_s, end_s))
+    for (OpenPlace& place : PlacesOf(truth, object, start_s, end_s))
       open.push_back(std::move(place));
   }
   std::vector<PlaceQuery> queries;
   for (const OpenPlace& place : open)
-    queries.push_back(place.query);
+    queries.insert(queries.end(), {place.query, place.replacement});
   const auto views = FirstClearViews(truth, queries, options.clear_view);
   std::vector<TruePlace> places;
   for (std::size_t i = 0; i < open.size(); ++i) {
-    if (open[i].is_former && views[i]) continue;  // seen to be empty: an object there is wrong
-    open[i].place.is_required = !open[i].is_former && views[i].has_value();
+    const bool is_seen = views[2 * i] || views[2 * i + 1];
+    if (open[i].is_former && is_seen) continue;  // known to be gone: an object there is wrong
+    open[i].place.is_required = !open[i].is_former && is_seen;
     places.push_back(std::move(open[i].place));
   }
   return places;

@@ -130,6 +130,23 @@ TEST(EvaluateObjects, DoesNotJudgeWhatLeftWhileNobodyLooked) {
   EXPECT_EQ(evaluation.all.F1(), 1.0);
 }
 
+TEST(EvaluateObjects, CallsAnObjectFalseWhoseReplacementHidesItsPlace) {
+  test::TestWorld world = TwoThings();
+  const Eigen::Vector3d before_it = 0.8 * kLeft;
+  world.stays[0].to_s = 1.0;
+  world.stays.push_back({.instance = 3, .class_id = kUmbrella, .from_s = 1.0, .center = before_it});
+  const std::vector<FoundObject> found{Found(7, kChair, kLeft)};
+  EXPECT_EQ(Evaluate(world, found).objects[0].verdict, ObjectVerdict::kNotJudged) << "hidden";
+  TrueChange replaced{.kind = ChangeKind::kReplaced, .time_s = 1.0, .instance = 1};
+  replaced.class_id = kChair;
+  replaced.new_instance = 3;
+  replaced.new_class_id = kUmbrella;
+  replaced.from = test::At(kLeft);
+  replaced.to = test::At(before_it);
+  world.changes = {replaced};
+  EXPECT_EQ(Evaluate(world, found).objects[0].verdict, ObjectVerdict::kFalse);
+}
+
 TEST(EvaluateObjects, NeedsTheRunsObjects) {
   const SceneTruth truth = test::TruthOf(TwoThings());
   SceneRun run = test::RunOf(truth);

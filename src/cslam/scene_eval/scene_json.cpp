@@ -113,6 +113,7 @@ Json ToJson(const JudgedChange& change, const ChangeEvaluation& evaluation) {
           {"to_m", ToJson(change.truth.to)},
           {"old_view_s", OrNull(change.truth.old_view_s)},
           {"new_view_s", OrNull(change.truth.new_view_s)},
+          {"first_glimpse_s", OrNull(change.truth.first_glimpse_s)},
           {"counts", change.truth.counts()},
           {"why_not", change.truth.why_not},
           {"is_matched", change.report.has_value()},
