@@ -114,9 +114,11 @@ ReportedChanges ReportChanges(const RunResult& result, const std::string& sequen
     }
     if (const auto new_id = map.Resolve(change.new_object)) {
       const MapObject& new_object = *map.FindObject(*new_id);
-      reported.new_object = static_cast<int>(new_id->value());
-      reported.new_class_id = new_object.class_id;
       reported.to = map.CentroidOf(new_object);
+      if (change.kind == MapChangeKind::kReplaced) {
+        reported.new_object = static_cast<int>(new_id->value());
+        reported.new_class_id = new_object.class_id;
+      }
     }
     reported.last_seen_there = change.last_seen_there;
     reported.first_seen_absent = change.first_seen_absent;
