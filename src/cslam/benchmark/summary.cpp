@@ -83,9 +83,9 @@ const FinishedRun* BenchmarkResult::Typical(const std::string& sequence, ObjectL
   const FinishedRun* best = nullptr;
   double best_distance = std::numeric_limits<double>::infinity();
   for (const FinishedRun& run : runs) {
-    if (!median || run.run.layer != layer || plan.data[run.run.data].sequence != sequence) continue;
-    if (!run.figures || !run.figures->ate_m) continue;
-    const double distance = std::abs(*run.figures->ate_m - median->median);
+    if (run.run.layer != layer || plan.data[run.run.data].sequence != sequence) continue;
+    if (!run.figures || (median && !run.figures->ate_m)) continue;
+    const double distance = median ? std::abs(*run.figures->ate_m - median->median) : 0.0;
     if (distance >= best_distance) continue;
     best_distance = distance;
     best = &run;

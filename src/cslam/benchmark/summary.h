@@ -56,7 +56,8 @@ struct BenchmarkResult {
   std::vector<std::string> Labels() const;  // of the others, each once
   int num_failed() const;
 
-  // The run whose error is the median one (of two the better): to be drawn. Null: none.
+  // The run whose error is nearest to the median one, or the first where none has an error: to be
+  // drawn. Null: no run has figures.
   const FinishedRun* Typical(const std::string& sequence, ObjectLayer layer) const;
 };
 
