@@ -126,8 +126,10 @@ void CheckFields(const JsonValue& value, const ReportedChange& change) {
     value.Fail("'from_m' must be null when something is added, and only then");
   if (change.to.has_value() == (change.kind == ChangeKind::kRemoved))
     value.Fail("'to_m' must be null when something is removed, and only then");
-  if (change.kind != ChangeKind::kReplaced && change.new_object != -1)
-    value.Fail("'new_object' must be -1 unless something is replaced");
+  const bool has_successor =
+      change.kind == ChangeKind::kReplaced || change.kind == ChangeKind::kMoved;
+  if (!has_successor && change.new_object != -1)
+    value.Fail("'new_object' must be -1 unless something is moved or replaced");
 }
 
 ReportedChange ReadChange(const JsonValue& value) {

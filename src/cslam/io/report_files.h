@@ -58,7 +58,7 @@ struct ReportedObjects {
 struct ReportedChange {
   ChangeKind kind = ChangeKind::kMoved;
   int object = -1;      // what left or moved; for kAdded what came
-  int new_object = -1;  // kReplaced: what stands there now; otherwise -1
+  int new_object = -1;  // kMoved: its id at the new place; kReplaced: what is there now
   int class_id = -1;
   int new_class_id = -1;
   std::optional<Eigen::Vector3d> from = {};  // centroid before, m, world; none for kAdded

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/objects/depth_region.h"
 
+#include "cslam/objects/box_background.h"
 #include "cslam/util/options.h"
 #include "cslam/vision/depth_thumbnail.h"
 
@@ -207,6 +208,7 @@ void Describe(OptionList& list, RegionOptions& o) {
            "How fast a person's or mover's limbs may leave the region that is carried on.");
   list.Add("min_support", o.min_support, {0.0, 1.0}, "",
            "Share of a carried region whose depth must agree for it to be kept.");
+  list.Group("background", o.background);
 }
 
 DepthRegion GrowRegion(const DepthView& view, const cv::Mat& seeds, const cv::Mat& allowed,
@@ -256,11 +258,16 @@ DepthRegion GrowRegion(const DepthView& view, const cv::Mat& seeds, const cv::Ma
   return Summarise(view, mask);
 }
 
-DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person,
-                       const cv::Mat& excluded, const RegionOptions& options) {
+DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person, const cv::Mat& taken,
+                       const RegionOptions& options) {
   if (view.empty() || box.empty()) return {};
   const cv::Rect rect = ThumbnailRect(view, box, 0.0);
   if (rect.empty()) return {};
+  cv::Mat excluded = taken;
+  if (!is_person) {
+    const cv::Mat background = BackgroundOfBox(view, rect, taken, options.background);
+    if (!background.empty()) excluded = taken.empty() ? background : cv::Mat(taken | background);
+  }
   const double band = BandOf(is_person, options);
   const double main_m = MainDepth(view, rect, excluded, band);
   if (main_m <= 0.0) return {};

@@ -58,6 +58,18 @@ struct DepthRegion {
   bool empty() const { return num_pixels == 0; }
 };
 
+// A detector's box is tight, so what continues from around it into it is not the thing: the floor
+// it stands on, the wall behind it.
+struct BoxBackgroundOptions {
+  bool enabled = true;
+  double ring_share = 0.15;         // width of the ring around the box, as share of its size
+  double min_support = 0.15;        // of the ring's readings, for a plane
+  double tolerance_m = 0.02;        // of a plane, at least ...
+  double tolerance_per_m2 = 0.006;  // ... and with the depth squared
+  double min_foreground = 0.1;      // share of the box that must be left for this to be believed
+};
+void Describe(OptionList& list, BoxBackgroundOptions& options);
+
 struct RegionOptions {
   double person_band_m = 0.33;    // surface depth of a person around the box's main depth
   double movable_band_m = 0.25;   // the same of other things
@@ -68,6 +80,7 @@ struct RegionOptions {
   double carry_tolerance_m = 0.15;
   double carry_speed_mps = 1.5;
   double min_support = 0.25;
+  BoxBackgroundOptions background;  // of things other than people
 };
 void Describe(OptionList& list, RegionOptions& options);
 

@@ -18,8 +18,8 @@ class OptionList;
 // How a place that is known is compared with what depth shows there. "Unobserved" is not "absent":
 // only what could be seen and is not there speaks against it.
 struct ExpectedViewOptions {
-  double tolerance_m = 0.03;        // of depth against a stored surface, at 0 m ...
-  double tolerance_per_m2 = 0.008;  // ... and its growth with the depth squared
+  double tolerance_m = 0.02;        // of depth against a stored surface, at 0 m ...
+  double tolerance_per_m2 = 0.005;  // ... and its growth with the depth squared
   double max_depth_m = 4.5;         // farther readings say nothing
   double min_visible_share = 0.4;   // of the samples, before anything is concluded
   double min_through_share = 0.6;   // of the visible ones: one looks through its place
