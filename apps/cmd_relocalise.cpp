@@ -47,11 +47,13 @@ std::shared_ptr<const MapSnapshot> LoadSnapshot(const fs::path& path, const Came
   return snapshot;
 }
 
-// The truth of frames and of the map's keyframes; empty if there is none.
-Trajectory ReadTruth(const DatasetReader& dataset, const std::optional<fs::path>& map_truth) {
-  if (map_truth) return ReadTrajectory(*map_truth);
+// Nothing where the truth of the frames is not known.
+std::optional<MapTruth> ReadTruth(const DatasetReader& dataset, const MapView& map,
+                                  const std::optional<fs::path>& map_truth) {
   const auto file = dataset.ground_truth();
-  return file ? ReadTrajectory(*file) : Trajectory{};
+  if (!file) return std::nullopt;
+  const Trajectory of_frames = ReadTrajectory(*file);
+  return MapTruth(map, map_truth ? ReadTrajectory(*map_truth) : of_frames, of_frames);
 }
 
 RelocalisationReport FindAll(const DatasetReader& dataset, FrameLocaliser& localiser,
@@ -82,9 +84,8 @@ int Relocalise(const RelocaliseCommand& command) {
   MadeDetector made = MakeDetector(options.detector);
   if (!made.warning.empty()) spdlog::warn("{}", made.warning);
   FrameLocaliser localiser(map, dataset->camera().camera, options, std::move(made.detector));
-  std::optional<MapTruth> truth;
-  if (Trajectory poses = ReadTruth(*dataset, command.map_truth); !poses.empty()) {
-    truth.emplace(map->map, std::move(poses));
+  const std::optional<MapTruth> truth = ReadTruth(*dataset, map->map, command.map_truth);
+  if (truth) {
     for (const std::string& problem : truth->problems())
       spdlog::warn("{}", problem);
   }
@@ -110,9 +111,10 @@ CLI::App* AddRelocaliseCommand(CLI::App& root, int& exit_code) {
   app->add_option("MAP", command->map, "Saved map (see 'run --save-map')")->required();
   AddInputArguments(*app, command->input);
   AddDetectorArguments(*app, command->detector);
-  app->add_option("--map-truth", command->map_truth,
-                  "Ground truth of the map's keyframes and of the frames, in one world; default: "
-                  "that of the sequence")
+  app->add_option(
+         "--map-truth", command->map_truth,
+         "Ground truth of the recording that the map was made of, in the same world as the "
+         "sequence's own; default: that one")
       ->type_name("FILE");
   app->add_flag("--json", command->json, "Print JSON, with every frame, to stdout");
   AddConfigArguments(*app, command->config);

@@ -137,7 +137,7 @@ class Questioner {
       : dataset_(dataset),
         truth_(truth),
         half_(half),
-        map_truth_(half.run.snapshot->map, truth),
+        map_truth_(half.run.snapshot->map, truth, truth),
         localiser_(half.run.snapshot, dataset.camera().camera, StaticOptions(), nullptr) {
     answers_.report.keyframe_rmse_m = map_truth_.KeyframeRmse();
   }

@@ -63,7 +63,8 @@ class HelpTest(CliTestCase):
         self.assertRegex(result.stdout, r"\Achanging-slam \d+\.\d+\.\d+ \(commit \S+\)\n\Z")
 
     def test_the_commands_of_the_readme_are_there(self):
-        self.assertEqual(set(subcommands()), {"run", "eval", "dataset", "map", "model", "config"})
+        self.assertEqual(set(subcommands()), {"run", "relocalise", "eval", "benchmark", "dataset",
+                                              "map", "model", "config"})
 
 
 class UsageErrorTest(CliTestCase):

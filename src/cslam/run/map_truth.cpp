@@ -34,10 +34,11 @@ std::optional<Se3> PoseAt(const Trajectory& truth, Stamp stamp) {
   return association.pairs.front().reference;
 }
 
-MapTruth::MapTruth(const MapView& map, Trajectory truth) : truth_(std::move(truth)) {
+MapTruth::MapTruth(const MapView& map, const Trajectory& of_keyframes, Trajectory of_frames)
+    : of_frames_(std::move(of_frames)) {
   for (const MapId id : MapsOf(map)) {
     try {
-      const AteResult ate = EvaluateAte(truth_, KeyframeTrajectory(map, id));
+      const AteResult ate = EvaluateAte(of_keyframes, KeyframeTrajectory(map, id));
       if (ate.alignment.rmse_m > kMaxKeyframeRmseM || !ate.alignment.is_unique) {
         throw Error("{} of its keyframes have a stamp of the truth, with {:.2f} m between them",
                     ate.association.pairs.size(), ate.alignment.rmse_m);
@@ -53,7 +54,7 @@ MapTruth::MapTruth(const MapView& map, Trajectory truth) : truth_(std::move(trut
 std::optional<PoseDifference> MapTruth::ErrorOf(MapId map, Stamp stamp,
                                                 const Se3& T_world_camera) const {
   const auto alignment = alignments_.find(map);
-  const auto truth = PoseAt(truth_, stamp);
+  const auto truth = PoseAt(of_frames_, stamp);
   if (!truth || alignment == alignments_.end()) return std::nullopt;
   return Difference(*truth, Align(alignment->second, T_world_camera));
 }

@@ -20,7 +20,8 @@ std::optional<Se3> PoseAt(const Trajectory& truth, Stamp stamp);
 // the truth at their stamps.
 class MapTruth {
  public:
-  MapTruth(const MapView& map, Trajectory truth);
+  // of_keyframes: in the same world as of_frames; the same, if the map was made of that recording.
+  MapTruth(const MapView& map, const Trajectory& of_keyframes, Trajectory of_frames);
 
   // Of a pose in the world of a map; nothing if the truth does not know it, or not where the map
   // lies.
@@ -32,7 +33,7 @@ class MapTruth {
   double KeyframeRmse() const;  // m, the largest of all maps
 
  private:
-  Trajectory truth_;
+  Trajectory of_frames_;
   std::map<MapId, Alignment> alignments_;  // of each map's world (b) onto the truth's (a)
   std::vector<std::string> problems_;
 };
