@@ -22,8 +22,8 @@ constexpr double kHeaderPx = 84.0;
 constexpr double kMarginM = 0.3;
 constexpr std::size_t kMaxPoints = 5000;  // drawn; evenly chosen from more
 
-constexpr const char* kPathStyle = R"(stroke="#adb5bd" stroke-width="1.5")";
-constexpr const char* kPointStyle = R"(fill="#ced4da")";
+constexpr const char* kPathStyle = R"(stroke="#868e96" stroke-width="1.2")";
+constexpr const char* kPointStyle = R"(fill="#adb5bd")";
 constexpr const char* kGhostStyle = R"(fill="#e03131")";
 constexpr const char* kPresentStyle = R"(stroke="#2b8a3e" stroke-width="3")";
 constexpr const char* kFormerStyle = R"(stroke="#f08c00" stroke-width="2" stroke-dasharray="6 4")";
@@ -120,20 +120,24 @@ Eigen::AlignedBox2d Extent(const TopView& view) {
   return {extent.min() - margin, extent.max() + margin};
 }
 
+enum class LabelPlace { kAbove, kBelow };
+
 void DrawBoxes(SvgImage& svg, const Paper& paper, const std::vector<LabelledBox>& boxes,
-               const char* style, double label_y_px) {
+               const char* style, LabelPlace place) {
   for (const LabelledBox& box : boxes) {
     std::vector<Eigen::Vector2d> pixels;
-    for (const Eigen::Vector2d& corner : Outline(box.box))
+    Eigen::AlignedBox2d around;
+    for (const Eigen::Vector2d& corner : Outline(box.box)) {
       pixels.push_back(paper.ToPixel(corner));
-    svg.Polyline(pixels, style);
-    const Eigen::Vector2d at =
-        paper.ToPixel(box.box.T_world_box.translation.head<2>()) + Eigen::Vector2d(0, label_y_px);
-    if (!box.label.empty()) {
-      svg.Text(at, box.label,
-               R"(font-size="10" text-anchor="middle" fill="#343a40" stroke="#ffffff" )"
-               R"(stroke-width="2.5" paint-order="stroke")");
+      around.extend(pixels.back());
     }
+    svg.Polyline(pixels, style);
+    if (box.label.empty() || around.isEmpty()) continue;
+    const double y_px =
+        place == LabelPlace::kAbove ? around.min().y() - 4.0 : around.max().y() + 11.0;
+    svg.Text({around.center().x(), y_px}, box.label,
+             R"(font-size="10" text-anchor="middle" fill="#343a40" stroke="#ffffff" )"
+             R"(stroke-width="2.5" paint-order="stroke")");
   }
 }
 
@@ -146,7 +150,7 @@ void DrawLegend(SvgImage& svg, const TopView& view) {
     x_px += width_px;
   };
   line(kPresentStyle, "true thing", 110.0);
-  line(kFormerStyle, "something was here", 160.0);
+  line(kFormerStyle, "something was here", 175.0);
   line(kFoundStyle, "found", 90.0);
   line(kAbsentStyle, "found gone", 120.0);
   line(kPathStyle, "camera", 95.0);
@@ -219,10 +223,10 @@ std::string FormatTopViewSvg(const TopView& view) {
   for (const Eigen::Vector3d& p : view.path)
     path.push_back(paper.ToPixel(p.head<2>()));
   svg.Polyline(path, kPathStyle);
-  DrawBoxes(svg, paper, view.former, kFormerStyle, 0.0);
-  DrawBoxes(svg, paper, view.present, kPresentStyle, -6.0);
-  DrawBoxes(svg, paper, view.absent, kAbsentStyle, 0.0);
-  DrawBoxes(svg, paper, view.found, kFoundStyle, 10.0);
+  DrawBoxes(svg, paper, view.former, kFormerStyle, LabelPlace::kAbove);
+  DrawBoxes(svg, paper, view.present, kPresentStyle, LabelPlace::kAbove);
+  DrawBoxes(svg, paper, view.absent, kAbsentStyle, LabelPlace::kBelow);
+  DrawBoxes(svg, paper, view.found, kFoundStyle, LabelPlace::kBelow);
   for (const Eigen::Vector3d& p : view.ghosts)
     svg.Circle(paper.ToPixel(p.head<2>()), 2.0, kGhostStyle);
   DrawLegend(svg, view);
