@@ -32,6 +32,7 @@ struct SceneArguments {
   std::vector<std::string> classes;
   std::string json_file;
   std::optional<double> fail_below;
+  std::string earlier;  // empty: none
 };
 
 std::set<int> ParseClasses(const std::vector<std::string>& names) {
@@ -43,6 +44,12 @@ std::set<int> ParseClasses(const std::vector<std::string>& names) {
     classes.insert(*class_id);
   }
   return classes;
+}
+
+SceneRun ReadRun(const SceneArguments& arguments, const SceneTruth& truth) {
+  SceneRun run = ReadSceneRun(arguments.run, truth.trajectory);
+  if (!arguments.earlier.empty()) run.earlier = ReadSessionTime(arguments.earlier);
+  return run;
 }
 
 template <typename Report>
@@ -66,7 +73,7 @@ int RunObjects(const SceneArguments& arguments, bool json) {
   const SceneEvalOptions options{.max_distance_m = arguments.distance_m,
                                  .classes = ParseClasses(arguments.classes)};
   const SceneTruth truth = ReadSceneTruth(arguments.truth);
-  const SceneRun run = ReadSceneRun(arguments.run, truth.trajectory);
+  const SceneRun run = ReadRun(arguments, truth);
   const ObjectReport report = MakeObjectReport(truth, run, options);
   Print(report, truth, run, arguments, json);
   return JudgeBar(report.objects.all, arguments);
@@ -76,7 +83,7 @@ int RunChanges(const SceneArguments& arguments, bool json) {
   const SceneEvalOptions options{.max_distance_m = arguments.distance_m,
                                  .classes = ParseClasses(arguments.classes)};
   const SceneTruth truth = ReadSceneTruth(arguments.truth);
-  const SceneRun run = ReadSceneRun(arguments.run, truth.trajectory);
+  const SceneRun run = ReadRun(arguments, truth);
   const ChangeReport report = MakeChangeReport(truth, run, options);
   Print(report, truth, run, arguments, json);
   return JudgeBar(report.changes.all, arguments);
@@ -106,6 +113,9 @@ void AddArguments(CLI::App& app, SceneArguments& arguments) {
                  "COCO classes, with commas between; otherwise all of the truth but people")
       ->type_name("NAME,...")
       ->delimiter(',');
+  app.add_option("--earlier", arguments.earlier,
+                 "Run folder of the session whose map RUN went on with, on the same sequence")
+      ->type_name("FOLDER");
   app.add_option("--json", arguments.json_file, "JSON instead of the table, or in FILE beside it")
       ->type_name("[FILE]")
       ->expected(0, 1);

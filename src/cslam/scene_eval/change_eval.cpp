@@ -188,8 +188,8 @@ ChangeEvaluation EvaluateChanges(const SceneTruth& truth, const SceneRun& run,
                                  const SceneEvalOptions& options) {
   if (!run.changes)
     throw Error("'{}' holds no changes.json; run with the object layer on", run.folder.string());
-  const SceneEvalOptions known = WithKnownClasses(options, truth.objects);
-  return JudgeChanges(KnowableChanges(truth, truth.TimeOf(run.first_stamp()),
+  const SceneEvalOptions known = WithGapOf(WithKnownClasses(options, truth.objects), truth, run);
+  return JudgeChanges(KnowableChanges(truth, truth.TimeOf(run.memory_start()),
                                       truth.TimeOf(run.last_stamp()), known),
                       *run.changes, truth.objects.start, known);
 }

@@ -206,6 +206,20 @@ TEST(EvaluateChanges, CountsWhatIsCarriedInView) {
   EXPECT_NEAR(*evaluation.changes[0].delay_from_old_place_s, 2.5, 0.05);
 }
 
+TEST(EvaluateChanges, CountsWhatChangedBetweenTwoSessions) {
+  test::TestWorld world = MovedChair();
+  world.yaw_rad = test::LookStraight;
+  const SceneTruth truth = test::TruthOf(world);
+  SceneRun run = test::RunOf(truth);
+  run.trajectory.erase(run.trajectory.begin(), run.trajectory.begin() + 60);
+  run.changes = {Told(ChangeKind::kMoved, kLeft, kRight, 6.5)};
+  EXPECT_EQ(EvaluateChanges(truth, run).all.num_true, 0) << "it began with nothing";
+  run.earlier = SessionTime{.from = test::StampAt(0.0), .to = test::StampAt(2.0)};
+  const ChangeEvaluation evaluation = EvaluateChanges(truth, run);
+  EXPECT_EQ(evaluation.all.F1(), 1.0);
+  EXPECT_NEAR(*evaluation.changes.at(0).truth.old_view_s, 6.0, 0.05) << "nobody looked at 4 s";
+}
+
 TEST(EvaluateChanges, LeavesOutWhatTheRunDidNotLiveToSee) {
   const SceneTruth truth = test::TruthOf(MovedChair());
   SceneRun run = test::RunOf(truth);

@@ -110,6 +110,7 @@ class ViewFinder {
     const Stamp stamp = truth_.frames->stamp(frame);
     const double time_s = truth_.TimeOf(stamp);
     if (time_s < query.from_s - kSameTimeS || time_s >= query.until_s + kSameTimeS) return false;
+    if (time_s > options_.gap_from_s && time_s < options_.gap_to_s) return false;
     if (query.shown_instance != 0 && !Shows(stamp, query.shown_instance)) return false;
     return IsInFrustum(query.box, truth_.frames->camera(), T_world_camera, options_);
   }

@@ -5,6 +5,7 @@
 #include "cslam/dataset/visibility.h"
 #include "cslam/scene_eval/scene_truth.h"
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,6 +23,9 @@ struct ClearViewOptions {
   int min_frames = 3;  // one after the other: a glance is no clear view
   // Of the picture, that a thing's visible pixels fill: 300 px of 640 x 480.
   double min_picture_share = 0.001;
+  // Frames after the one and before the other do not count: no session saw them.
+  double gap_from_s = std::numeric_limits<double>::infinity();
+  double gap_to_s = -std::numeric_limits<double>::infinity();
 };
 
 // A place and the time in which a view of it counts.

@@ -176,7 +176,7 @@ GhostCount CountGhosts(const SceneTruth& truth, const SceneRun& run, const Ghost
   if (!run.map_points) throw Error("'{}' holds no map.ply", run.folder.string());
   const double end_s = truth.TimeOf(run.last_stamp());
   const std::vector<FormerPlace> places =
-      SeenAgain(truth, FormerPlaces(truth, truth.TimeOf(run.first_stamp()), end_s), end_s,
+      SeenAgain(truth, FormerPlaces(truth, truth.TimeOf(run.memory_start()), end_s), end_s,
                 options.clear_view);
   GhostCount count{.num_points = run.map_points->size(),
                    .num_former_places = static_cast<int>(places.size()),

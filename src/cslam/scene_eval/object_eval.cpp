@@ -207,9 +207,9 @@ ObjectEvaluation EvaluateObjects(const SceneTruth& truth, const SceneRun& run,
                                  const SceneEvalOptions& options) {
   if (!run.objects)
     throw Error("'{}' holds no objects.json; run with the object layer on", run.folder.string());
-  const SceneEvalOptions known = WithKnownClasses(options, truth.objects);
+  const SceneEvalOptions known = WithGapOf(WithKnownClasses(options, truth.objects), truth, run);
   return JudgeObjects(
-      TruePlacesAt(truth, truth.TimeOf(run.first_stamp()), truth.TimeOf(run.last_stamp()), known),
+      TruePlacesAt(truth, truth.TimeOf(run.memory_start()), truth.TimeOf(run.last_stamp()), known),
       *run.objects, known);
 }
 

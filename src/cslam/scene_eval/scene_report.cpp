@@ -220,7 +220,9 @@ ObjectReport MakeObjectReport(const SceneTruth& truth, const SceneRun& run,
                               const SceneEvalOptions& options) {
   ObjectReport report{.options = WithKnownClasses(options, truth.objects)};
   report.objects = EvaluateObjects(truth, run, report.options);
-  if (run.map_points) report.ghosts = CountGhosts(truth, run, {.clear_view = options.clear_view});
+  if (run.map_points)
+    report.ghosts =
+        CountGhosts(truth, run, {.clear_view = WithGapOf(options, truth, run).clear_view});
   report.active = ShareOfActivePoints(report.objects, run.last_stamp());
   return report;
 }

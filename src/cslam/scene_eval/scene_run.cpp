@@ -14,6 +14,15 @@
 namespace cslam {
 namespace {
 
+Trajectory ReadRunTrajectory(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "trajectory.txt";
+  if (!std::filesystem::exists(file))
+    throw Error("'{}' holds no trajectory.txt; give a folder that 'run' wrote", folder.string());
+  Trajectory trajectory = ReadTrajectory(file);
+  if (trajectory.empty()) throw Error("'{}' has no poses: the run tracked nothing", file.string());
+  return trajectory;
+}
+
 AteResult AlignToTruth(const Trajectory& truth, const Trajectory& run) {
   AteOptions options;
   const PoseAssociation association = AssociatePosesOrThrow(truth, run, options.association);
@@ -110,12 +119,15 @@ ReportedChange MoveToTruth(const ReportedChange& change, const Se3& T_truth_run)
   return moved;
 }
 
+SessionTime ReadSessionTime(const std::filesystem::path& folder) {
+  const Trajectory trajectory = ReadRunTrajectory(folder);
+  return {.from = trajectory.front().stamp, .to = trajectory.back().stamp};
+}
+
 SceneRun ReadSceneRun(const std::filesystem::path& folder, const Trajectory& true_trajectory) {
-  if (!std::filesystem::exists(folder / "trajectory.txt"))
-    throw Error("'{}' holds no trajectory.txt; give a folder that 'run' wrote", folder.string());
   SceneRun run;
   run.folder = folder;
-  run.trajectory = ReadTrajectory(folder / "trajectory.txt");
+  run.trajectory = ReadRunTrajectory(folder);
   const AteResult ate = AlignToTruth(true_trajectory, run.trajectory);
   run.alignment = ate.options.alignment;
   run.T_truth_run = ate.alignment.T_a_b;

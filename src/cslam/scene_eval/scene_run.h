@@ -32,6 +32,12 @@ struct AcceptedLoop {
   Se3 T_match_query;
 };
 
+// The time of a session.
+struct SessionTime {
+  Stamp from;
+  Stamp to;
+};
+
 // What a run folder says, in the frame of the truth.
 struct SceneRun {
   std::filesystem::path folder = {};
@@ -44,6 +50,12 @@ struct SceneRun {
   std::optional<std::vector<Eigen::Vector3d>> map_points = {};  // active ones
   std::optional<std::vector<AcceptedLoop>> loops = {};
 
+  // The session whose map the run went on with, on the same sequence; absent: it began with
+  // nothing.
+  std::optional<SessionTime> earlier = {};
+
+  // From when the map may know of things.
+  Stamp memory_start() const { return earlier ? earlier->from : first_stamp(); }
   Stamp first_stamp() const { return trajectory.front().stamp; }
   Stamp last_stamp() const { return trajectory.back().stamp; }
 };
@@ -53,6 +65,9 @@ struct SceneRun {
 // points of objects are left out: their frame is not that of the trajectory. Throws Error without a
 // trajectory, or for a broken file.
 SceneRun ReadSceneRun(const std::filesystem::path& folder, const Trajectory& true_trajectory);
+
+// The time of the session that wrote that run folder.
+SessionTime ReadSessionTime(const std::filesystem::path& folder);
 
 // The same for what is in memory.
 FoundObject MoveToTruth(const ReportedObject& object, const Se3& T_truth_run);

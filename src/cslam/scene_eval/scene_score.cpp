@@ -18,6 +18,15 @@ SceneEvalOptions WithKnownClasses(const SceneEvalOptions& options, const TrueObj
   return known;
 }
 
+SceneEvalOptions WithGapOf(const SceneEvalOptions& options, const SceneTruth& truth,
+                           const SceneRun& run) {
+  SceneEvalOptions with_gap = options;
+  if (!run.earlier) return with_gap;
+  with_gap.clear_view.gap_from_s = truth.TimeOf(run.earlier->to);
+  with_gap.clear_view.gap_to_s = truth.TimeOf(run.first_stamp());
+  return with_gap;
+}
+
 std::optional<double> DetectionScore::Precision() const {
   return Share(num_matched, num_reported);
 }

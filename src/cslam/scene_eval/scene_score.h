@@ -4,6 +4,7 @@
 
 #include "cslam/io/truth_files.h"
 #include "cslam/scene_eval/clear_view.h"
+#include "cslam/scene_eval/scene_run.h"
 
 #include <optional>
 #include <set>
@@ -18,6 +19,10 @@ struct SceneEvalOptions {
 
 // The same with classes filled in: those of the truth but people, unless some are asked for.
 SceneEvalOptions WithKnownClasses(const SceneEvalOptions& options, const TrueObjects& objects);
+
+// The same with views left out that neither the run nor the session before it had.
+SceneEvalOptions WithGapOf(const SceneEvalOptions& options, const SceneTruth& truth,
+                           const SceneRun& run);
 
 // Counts of a score. Undefined shares (nothing to divide by) are nothing.
 struct DetectionScore {
