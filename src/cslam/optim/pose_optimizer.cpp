@@ -38,7 +38,8 @@ struct alignas(64) ObservationBlock {
   Lanes information_px{}, information_disparity{};
   Lanes threshold = Ones();  // chi2
   Lanes kernel = Ones();     // chi2
-  Lanes active{};            // 1: takes part, 0: not
+  Lanes weight{};
+  Lanes active{};  // the weight if it takes part, otherwise 0
 };
 
 // Sums per lane; the normal equations' lower triangle row by row.
@@ -197,7 +198,8 @@ class PoseProblem {
         is_usable_(observations.size()) {
     for (std::size_t i = 0; i < observations.size(); ++i) {
       const Measurement m = MeasurementOf(observations[i]);
-      is_usable_[i] = m.is_usable && observations[i].p_world.allFinite();
+      is_usable_[i] = m.is_usable && observations[i].p_world.allFinite() &&
+                      std::isfinite(observations[i].weight) && observations[i].weight > 0.0;
       if (!is_usable_[i]) continue;
       ObservationBlock& block = blocks_[i / kLanes];
       const std::size_t lane = i % kLanes;
@@ -210,6 +212,7 @@ class PoseProblem {
       block.information_px[lane] = observations[i].information_px;
       block.information_disparity[lane] =
           m.has_disparity ? observations[i].information_disparity : 0.0;
+      block.weight[lane] = observations[i].weight;
       block.kernel[lane] = options.kernel_chi2;
       block.threshold[lane] = m.has_disparity ? options.chi2_depth : options.chi2_mono;
     }
@@ -262,7 +265,8 @@ class PoseProblem {
 
   void Activate(const std::vector<std::uint8_t>& is_active) {
     for (std::size_t i = 0; i < is_active.size(); ++i) {
-      blocks_[i / kLanes].active[i % kLanes] = is_active[i] ? 1.0 : 0.0;
+      ObservationBlock& block = blocks_[i / kLanes];
+      block.active[i % kLanes] = is_active[i] ? block.weight[i % kLanes] : 0.0;
     }
   }
 

@@ -20,6 +20,7 @@ struct PoseObservation {
   double disparity_px = -1.0;          // fx * baseline / z of the depth reading; negative: none
   double information_px = 1.0;         // 1 / sigma^2 of u and v
   double information_disparity = 1.0;  // 1 / sigma^2 of the disparity
+  double weight = 1.0;                 // its say in the pose; inliers are judged without it
 };
 
 struct PoseOptimizerOptions {
@@ -47,8 +48,8 @@ struct PoseSolution {
 
 // Motion-only optimisation: the pose that best explains the observations, starting from
 // T_world_camera. baseline_m is the virtual stereo baseline. Observations with a non-finite number
-// or without positive information are never inliers. With fewer than three usable observations,
-// or a start pose that is not finite, the start pose comes back. Deterministic.
+// or without positive information and weight are never inliers. With fewer than three usable
+// observations, or a start pose that is not finite, the start pose comes back. Deterministic.
 PoseSolution OptimizePose(const Camera& camera, double baseline_m, const Se3& T_world_camera,
                           std::span<const PoseObservation> observations,
                           const PoseOptimizerOptions& options);

@@ -70,6 +70,30 @@ TEST(OptimizePose, RecoversThePoseWhenDataIsExact) {
   }
 }
 
+// As many points that have moved together as points that have not: weight decides.
+TEST(OptimizePose, FollowsTheHeavierPointsWhenHalfHaveMoved) {
+  PoseScene scene = MakePoseScene(200, 0.0, 3);
+  for (std::size_t i = 0; i < scene.observations.size(); i += 2) {
+    scene.observations[i].uv_px.x() += 3.0;
+    scene.observations[i].weight = 0.125;
+  }
+  const PoseSolution trusting = Solve(scene, scene.T_world_camera);
+  EXPECT_LT(Difference(trusting.T_world_camera, scene.T_world_camera).angle_rad, 5e-4);
+  for (std::size_t i = 0; i < scene.observations.size(); ++i)
+    scene.observations[i].weight = i % 2 == 0 ? 1.0 : 0.125;
+  const PoseSolution misled = Solve(scene, scene.T_world_camera);
+  EXPECT_GT(Difference(misled.T_world_camera, scene.T_world_camera).angle_rad, 2e-3);
+}
+
+TEST(OptimizePose, LeavesOutWhatHasNoWeight) {
+  PoseScene scene = MakePoseScene(50, 0.0, 3);
+  scene.observations[0].weight = 0.0;
+  scene.observations[1].weight = kNan;
+  const PoseSolution solution = Solve(scene, scene.T_world_camera);
+  EXPECT_EQ(solution.num_inliers, 48);
+  EXPECT_EQ(solution.is_inlier[1], 0);
+}
+
 // The information is J^T J, so this checks every entry of the analytic Jacobian.
 TEST(OptimizePose, ReturnsTheInformationOfTheNumericJacobian) {
   const PoseScene scene = MakePoseScene(57, 0.0, 1);  // some lanes of the last block are empty

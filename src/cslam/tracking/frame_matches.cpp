@@ -66,7 +66,8 @@ PoseEstimate EstimatePose(const FrameFeatures& features, FrameMatches matches,
                             .uv_px = keypoint.uv_px.cast<double>(),
                             .disparity_px = static_cast<double>(keypoint.disparity_px),
                             .information_px = model.information_px(keypoint.octave),
-                            .information_disparity = model.information_disparity(keypoint.octave)});
+                            .information_disparity = model.information_disparity(keypoint.octave),
+                            .weight = matches[i].weight});
     keypoint_of.push_back(i);
   }
   const PoseSolution solution =

@@ -21,6 +21,7 @@ struct Landmark {
   PointId point;              // of a map point
   bool is_held_back = false;  // by its object: no part of a pose while the room suffices
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();
+  double weight = 1.0;  // its say in a pose
 };
 
 using FrameMatches = std::vector<Landmark>;  // one per keypoint

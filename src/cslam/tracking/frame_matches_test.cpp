@@ -28,7 +28,7 @@ class EstimatePoseTest : public testing::Test {
                       .v = uv.y(),
                       .disparity_px = static_cast<float>(500.0 * kBaseline / p_camera.z())});
       const Kind kind = i % 3 == 0 ? Kind::kProvisional : Kind::kMapPoint;
-      matches_.push_back({kind, PointId(i), T_world_camera_ * p_camera});
+      matches_.push_back({kind, PointId(i), false, T_world_camera_ * p_camera});
     }
     features_ = test::MakeFeatures(list);
   }

@@ -35,8 +35,15 @@ bool CanHaveMoved(const Se3& T_world_before, const Se3& T_world_after, double ti
          way.angle_rad <= max_angle_deg * std::numbers::pi / 180.0;
 }
 
-Landmark MapLandmark(const MapPoint& point) {
-  return {Landmark::Kind::kMapPoint, point.id, !IsUsable(point), point.p_world};
+// Who walks into the picture brings many points that are all new and all move alike: points that
+// have been seen from many keyframes have more say.
+double TrustIn(std::size_t num_views, const TrackerOptions& options) {
+  return std::min(1.0, std::max(1.0, static_cast<double>(num_views)) / options.full_trust_views);
+}
+
+Landmark MapLandmark(const MapPoint& point, const TrackerOptions& options) {
+  return {Landmark::Kind::kMapPoint, point.id, !IsUsable(point), point.p_world,
+          TrustIn(point.observations.size(), options)};
 }
 
 int CountUsable(const MapView& map, const std::vector<PointId>& points) {
@@ -196,11 +203,12 @@ bool Tracker::EstimateFromMotion(CurrentFrame& current) {
     if (id) {
       const MapPoint& point = *snapshot_->map.FindPoint(*id);
       if (!IsUsable(point) && !use_held_back) continue;
-      landmark = MapLandmark(point);
+      landmark = MapLandmark(point, options_);
     } else if (IsNear(last.keypoints[i], options_.depth)) {
       const Eigen::Vector3d p_last = Unproject(camera_, last.keypoints[i].uv_px.cast<double>(),
                                                static_cast<double>(last.keypoints[i].depth_m));
-      landmark = {Landmark::Kind::kProvisional, PointId(), false, *current.T_world_last * p_last};
+      landmark = {Landmark::Kind::kProvisional, PointId(), false, *current.T_world_last * p_last,
+                  TrustIn(0, options_)};
     } else {
       continue;
     }
@@ -292,7 +300,7 @@ bool Tracker::EstimateFromPlace(CurrentFrame& current, const PlaceHint& hint) {
   FrameMatches matches(current.features().size());
   for (const Match& match : found) {
     const PointId id = expected[Index(match.query)].point;
-    matches[Index(match.keypoint)] = MapLandmark(*map.FindPoint(id));
+    matches[Index(match.keypoint)] = MapLandmark(*map.FindPoint(id), options_);
   }
   current.estimate =
       EstimatePose(current.features(), std::move(matches), T_world_camera, Provisional::kIgnore,
@@ -322,7 +330,7 @@ bool Tracker::EstimateFromReference(CurrentFrame& current) {
   FrameMatches matches(current.features().size());
   for (const Match& match : found) {
     const MapPoint& point = *snapshot_->map.FindPoint(reference.points[Index(match.query)]);
-    matches[Index(match.keypoint)] = MapLandmark(point);
+    matches[Index(match.keypoint)] = MapLandmark(point, options_);
   }
   current.estimate =
       EstimatePose(current.features(), std::move(matches), *current.T_world_last,
@@ -374,7 +382,7 @@ void Tracker::RefineWithLocalMap(CurrentFrame& current) {
                                        is_taken);
   for (const Match& match : found) {
     const PointId id = current.expected[Index(match.query)].point;
-    matches[Index(match.keypoint)] = MapLandmark(*map.FindPoint(id));
+    matches[Index(match.keypoint)] = MapLandmark(*map.FindPoint(id), options_);
   }
   const FrameMatches held_back = SetHeldBackAside(current.features(), matches);
 

@@ -70,6 +70,9 @@ void Describe(OptionList& list, TrackerOptions& o) {
            "Inliers of the final pose; with fewer the frame is not tracked.");
   list.Add("use_provisional_below", o.use_provisional_below, {0, 10'000}, "matches",
            "With fewer map matches the final pose also uses the last frame's own depth points.");
+  list.Add("full_trust_views", o.full_trust_views, {1, 1000}, "keyframes",
+           "A point seen from fewer counts the less in a pose, in proportion: who walks into the "
+           "picture brings new points that move alike.");
   list.Add("use_held_back_below", o.use_held_back_below, {0, 10'000}, "matches",
            "With fewer matched points of the room, those of objects that rest but are not believed "
            "in yet count for the pose as well: a room full of furniture must not get lost.");

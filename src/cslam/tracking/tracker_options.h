@@ -57,6 +57,7 @@ struct TrackerOptions {
   int min_inliers = 30;
   int use_provisional_below = 100;
   int use_held_back_below = 100;
+  int full_trust_views = 8;
   double recently_lost_s = 2.0;
   double max_jump_m = 0.2;
   double max_speed_m_s = 2.0;
