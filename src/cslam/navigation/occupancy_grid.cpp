@@ -14,7 +14,10 @@
 namespace cslam {
 namespace {
 
-constexpr int kRayStepPx = 2;        // neighbouring rays pass through the same cells
+constexpr int kRayStepPx = 2;  // neighbouring rays pass through the same cells
+constexpr int kStandingLayers = 2;
+constexpr double kFlattestSine =
+    0.1;                             // of a ray to the surface; the sines of flatter ones are noise
 constexpr double kMaxCells = 150e6;  // two bytes each
 
 double LogOdds(double probability) {
@@ -37,6 +40,9 @@ struct Reading {
   Eigen::Vector3d p_grid;
   bool is_ray = false;  // of the lattice along which rays are cast
   bool is_gone = false;
+  // How far before its end a ray stops to tell anything: from there on it runs within a layer of
+  // the surface it meets, as over a table it sees at a flat angle.
+  double unclear_m = 0.0;
 };
 
 // Reads the depth of keyframes into the grid frame.
@@ -60,9 +66,12 @@ class Reader {
         if (depth_m <= 0.0 || depth_m > options_.max_depth_m) continue;
         const Eigen::Vector3d p_grid =
             R_grid_camera * (depth_m * rays_.At(u, v)) + T_grid_camera.translation;
+        const bool is_ray = u % kRayStepPx == 0 && v % kRayStepPx == 0;
+        const double sine = is_ray ? std::max(SineToSurface(depth_mm, u, v), kFlattestSine) : 1.0;
         readings.push_back({.p_grid = p_grid,
-                            .is_ray = u % kRayStepPx == 0 && v % kRayStepPx == 0,
-                            .is_gone = IsInAny(gone, p_grid)});
+                            .is_ray = is_ray,
+                            .is_gone = IsInAny(gone, p_grid),
+                            .unclear_m = options_.layer_m / sine});
       }
     }
     return readings;
@@ -73,6 +82,22 @@ class Reader {
   }
 
  private:
+  // Of the angle between a pixel's ray and the surface it meets; 1 where its neighbours do not
+  // tell.
+  double SineToSurface(const cv::Mat& depth_mm, int u, int v) const {
+    if (u < 1 || v < 1 || u + 1 >= depth_mm.cols || v + 1 >= depth_mm.rows) return 1.0;
+    bool has_all = true;
+    const auto point = [&](int at_u, int at_v) {
+      const double depth_m = 1e-3 * depth_mm.at<std::uint16_t>(at_v, at_u);
+      has_all = has_all && depth_m > 0.0;
+      return Eigen::Vector3d(depth_m * rays_.At(at_u, at_v));
+    };
+    const Eigen::Vector3d right = point(u + 1, v) - point(u - 1, v);
+    const Eigen::Vector3d down = point(u, v + 1) - point(u, v - 1);
+    const Eigen::Vector3d normal = right.cross(down).normalized();
+    return has_all ? std::abs(normal.dot(rays_.At(u, v).normalized())) : 1.0;
+  }
+
   struct Box {
     Se3 T_box_grid;
     Eigen::Array3d half_m;
@@ -142,7 +167,9 @@ void Cast(const std::vector<Reading>& readings, const Eigen::Vector3d& camera,
   }
   for (const Reading& reading : readings) {
     if (!reading.is_ray) continue;
-    cells.AddRay(camera, reading.p_grid);
+    const Eigen::Vector3d way = reading.p_grid - camera;
+    const double clear_share = 1.0 - reading.unclear_m / way.norm();
+    if (clear_share > 0.0) cells.AddRay(camera, camera + clear_share * way);
     const bool is_floor = std::abs(reading.p_grid.z()) < options.min_height_m;
     if (!is_floor) continue;
     const double in_floor_layer_m = options.min_height_m - 0.5 * options.layer_m;
@@ -151,6 +178,8 @@ void Cast(const std::vector<Reading>& readings, const Eigen::Vector3d& camera,
   cells.Apply();
 }
 
+// Occupied where any layer is. Free where one can stand: what is free above a table says nothing,
+// so it must be the floor's layer or the one over it.
 CellState StateOf(const LayeredCells& cells, int x, int y, const OccupancyGridOptions& options) {
   const double occupied = LogOdds(options.occupied_belief);
   const double free = LogOdds(options.free_belief);
@@ -158,7 +187,7 @@ CellState StateOf(const LayeredCells& cells, int x, int y, const OccupancyGridOp
   for (int z = 0; z < cells.shape().size.z(); ++z) {
     const double log_odds = cells.At(x, y, z);
     if (log_odds >= occupied) return CellState::kOccupied;
-    is_free = is_free || log_odds <= free;
+    is_free = is_free || (z < kStandingLayers && log_odds <= free);
   }
   return is_free ? CellState::kFree : CellState::kUnknown;
 }

@@ -61,6 +61,26 @@ TEST(BuildOccupancyGrid, HasWallsAndThingsOccupiedAndTheFloorFree) {
   EXPECT_EQ(grid.At(At(grid, 9.0, 9.0)), CellState::kUnknown);
 }
 
+TEST(BuildOccupancyGrid, HasTheWholeTopOfATableSeenAtAFlatAngle) {
+  const test::TestBox table{{0.8, 0.55, 0.9}, {2.6, 1.3, 2.7}};
+  RoomMapper mapper(RoomWith({table}));
+  LookAround(mapper);
+
+  const OccupancyGrid grid = Build(mapper);
+
+  int occupied = 0;
+  int free = 0;
+  for (double x = 0.85; x < 2.6; x += 0.05) {
+    for (double z = 0.95; z < 2.7; z += 0.05) {
+      const CellState state = grid.At(At(grid, x, z));
+      occupied += state == CellState::kOccupied ? 1 : 0;
+      free += state == CellState::kFree ? 1 : 0;
+    }
+  }
+  EXPECT_GT(occupied, 900);  // of 1225
+  EXPECT_LT(free, 60);
+}
+
 TEST(BuildOccupancyGrid, LeavesOutWhatIsKnownToBeGone) {
   RoomMapper mapper(RoomWith({kThing}));
   LookAround(mapper);
