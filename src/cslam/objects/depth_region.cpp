@@ -258,33 +258,63 @@ DepthRegion GrowRegion(const DepthView& view, const cv::Mat& seeds, const cv::Ma
   return Summarise(view, mask);
 }
 
+namespace {
+
+// Pixels of rect with a reading within reach_m of the depth, where not excluded.
+cv::Mat PixelsAround(const DepthView& view, const cv::Rect& rect, double depth_m, double reach_m,
+                     const cv::Mat& excluded) {
+  cv::Mat pixels = cv::Mat::zeros(view.depth_mm.size(), CV_8UC1);
+  for (int v = rect.y; v < rect.y + rect.height; ++v) {
+    for (int u = rect.x; u < rect.x + rect.width; ++u) {
+      const double z = static_cast<double>(view.DepthM(u, v));
+      if (z <= 0.0 || std::abs(z - depth_m) > reach_m) continue;
+      if (!excluded.empty() && excluded.at<std::uint8_t>(v, u) != 0) continue;
+      pixels.at<std::uint8_t>(v, u) = 255;
+    }
+  }
+  return pixels;
+}
+
+// A thing is about as deep as it is large: how far it may reach from its main depth.
+double ReachOfBox(const DepthView& view, const Box& box, double main_m, bool is_person,
+                  const RegionOptions& options) {
+  constexpr double kDepthOfSize = 0.9;
+  const double reach_m = ReachOf(is_person, options);
+  if (is_person) return reach_m;
+  const double size_m = std::max(box.width(), box.height()) * main_m / view.camera.fx;
+  return std::min(reach_m, std::max(0.5 * options.movable_band_m, kDepthOfSize * size_m));
+}
+
+}  // namespace
+
 DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person, const cv::Mat& taken,
                        const RegionOptions& options) {
   if (view.empty() || box.empty()) return {};
   const cv::Rect rect = ThumbnailRect(view, box, 0.0);
   if (rect.empty()) return {};
-  cv::Mat excluded = taken;
-  if (!is_person) {
-    const cv::Mat background = BackgroundOfBox(view, rect, taken, options.background);
-    if (!background.empty()) excluded = taken.empty() ? background : cv::Mat(taken | background);
-  }
+  cv::Mat background;
+  if (!is_person) background = BackgroundOfBox(view, rect, taken, options.background);
+  const cv::Mat excluded = taken.empty()        ? background
+                           : background.empty() ? taken
+                                                : cv::Mat(taken | background);
   const double band = BandOf(is_person, options);
   const double main_m = MainDepth(view, rect, excluded, band);
   if (main_m <= 0.0) return {};
-  cv::Mat seeds = cv::Mat::zeros(view.depth_mm.size(), CV_8UC1);
-  for (int v = rect.y; v < rect.y + rect.height; ++v) {
-    for (int u = rect.x; u < rect.x + rect.width; ++u) {
-      const double z = static_cast<double>(view.DepthM(u, v));
-      if (z <= 0.0 || std::abs(z - main_m) > 0.5 * band) continue;
-      if (!excluded.empty() && excluded.at<std::uint8_t>(v, u) != 0) continue;
-      seeds.at<std::uint8_t>(v, u) = 255;
-    }
+  const double reach_m = ReachOfBox(view, box, main_m, is_person, options);
+  DepthRegion region;
+  if (!background.empty()) {
+    // Without floor and wall all that is left is the thing, in one piece or not: its back shows
+    // on both sides of what sits on it.
+    cv::Mat mask = PixelsAround(view, rect, main_m, reach_m, excluded);
+    cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, cv::Mat::ones(3, 3, CV_8UC1));
+    region = Summarise(view, mask);
+  } else {
+    const cv::Mat seeds = PixelsAround(view, rect, main_m, 0.5 * band, excluded);
+    cv::Mat allowed = cv::Mat::zeros(view.depth_mm.size(), CV_8UC1);
+    allowed(ThumbnailRect(view, box, options.box_margin)).setTo(255);
+    if (!excluded.empty()) allowed.setTo(0, excluded);
+    region = GrowRegion(view, seeds, allowed, reach_m, options.step_ratio);
   }
-  cv::Mat allowed = cv::Mat::zeros(view.depth_mm.size(), CV_8UC1);
-  allowed(ThumbnailRect(view, box, options.box_margin)).setTo(255);
-  if (!excluded.empty()) allowed.setTo(0, excluded);
-  DepthRegion region =
-      GrowRegion(view, seeds, allowed, ReachOf(is_person, options), options.step_ratio);
   region.support = region.empty() ? 0.0 : 1.0;
   return region;
 }

@@ -65,7 +65,7 @@ struct BoxBackgroundOptions {
   double ring_share = 0.15;         // width of the ring around the box, as share of its size
   double min_support = 0.15;        // of the ring's readings, for a plane
   double tolerance_m = 0.02;        // of a plane, at least ...
-  double tolerance_per_m2 = 0.006;  // ... and with the depth squared
+  double tolerance_per_m2 = 0.010;  // ... and with the depth squared
   double min_foreground = 0.1;      // share of the box that must be left for this to be believed
 };
 void Describe(OptionList& list, BoxBackgroundOptions& options);
@@ -74,7 +74,7 @@ struct RegionOptions {
   double person_band_m = 0.33;    // surface depth of a person around the box's main depth
   double movable_band_m = 0.25;   // the same of other things
   double person_reach_m = 0.80;   // a person's arms and legs reach so far in depth
-  double movable_reach_m = 0.50;  // other things
+  double movable_reach_m = 0.80;  // other things, at most; less if their box is smaller
   double step_ratio = 0.03;       // depth step, as share of the depth, that parts two surfaces
   double box_margin = 0.08;       // how far a region may leave its box, as share of its size
   double carry_tolerance_m = 0.15;

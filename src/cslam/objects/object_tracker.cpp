@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 namespace cslam {
 namespace {
@@ -50,6 +51,39 @@ bool IsCovered(const DepthRegion& region, const DepthView& view) {
     }
   }
   return outline > 0 && covered > kMinShare * outline;
+}
+
+// Whether most of a lies within b, which is clearly larger: it sits on it or stands before it.
+bool SitsOn(const Box& a, const Box& b) {
+  constexpr double kInside = 0.7;
+  constexpr double kSmaller = 0.6;
+  return a.area() < kSmaller * b.area() && Intersect(a, b).area() > kInside * a.area();
+}
+
+// People first, then what sits on something before what it sits on, then nearer things, so that
+// those behind leave out what is covered: the box of a chair behind somebody is full of that
+// person, and that of a chair with a bear has the bear in the middle.
+std::vector<std::size_t> FrontToBack(const std::vector<Detection>& detections,
+                                     const std::vector<DepthRegion>& regions) {
+  std::vector<std::size_t> left(detections.size());
+  for (std::size_t i = 0; i < left.size(); ++i)
+    left[i] = i;
+  const auto rank = [&](std::size_t i) {
+    const bool is_person = detections[i].class_id == kPersonClass;
+    const bool carries = std::any_of(left.begin(), left.end(), [&](std::size_t j) {
+      return j != i && SitsOn(detections[j].box, detections[i].box);
+    });
+    const float z = regions[i].empty() ? std::numeric_limits<float>::max() : regions[i].median_m;
+    return std::tuple(!is_person, carries, z, i);
+  };
+  std::vector<std::size_t> order;
+  while (!left.empty()) {
+    const auto next = std::min_element(
+        left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    order.push_back(*next);
+    left.erase(next);
+  }
+  return order;
 }
 
 }  // namespace
@@ -190,31 +224,19 @@ DepthRegion ObjectTracker::Segment(const DepthView& view, const Detection& detec
                            options_.region);
 }
 
-// People first, then nearer things, so that those behind leave out what is covered: the box of a
-// chair behind somebody is full of that person.
+// Those behind leave out what is covered.
 std::vector<DepthRegion> ObjectTracker::SegmentAll(const Frame& frame,
                                                    const Detections& detections) const {
-  const std::size_t count = detections.objects.size();
-  std::vector<DepthRegion> regions(count);
-  std::vector<std::size_t> order(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    order[i] = i;
-    regions[i] = Segment(frame.view, detections.objects[i], {});
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const bool a_is_person = detections.objects[a].class_id == kPersonClass;
-    const bool b_is_person = detections.objects[b].class_id == kPersonClass;
-    if (a_is_person != b_is_person) return a_is_person;
-    const float za = regions[a].empty() ? std::numeric_limits<float>::max() : regions[a].median_m;
-    const float zb = regions[b].empty() ? std::numeric_limits<float>::max() : regions[b].median_m;
-    return za < zb;
-  });
+  std::vector<DepthRegion> regions;
+  regions.reserve(detections.objects.size());
+  for (const Detection& detection : detections.objects)
+    regions.push_back(Segment(frame.view, detection, {}));
   cv::Mat taken;
-  for (const std::size_t i : order) {
+  for (const std::size_t i : FrontToBack(detections.objects, regions)) {
     const Detection& detection = detections.objects[i];
     bool overlaps = false;
-    for (std::size_t j = 0; j < count; ++j)
-      overlaps = overlaps || (j != i && Iou(detections.objects[j].box, detection.box) > 0.0);
+    for (const Detection& other : detections.objects)
+      overlaps = overlaps || (&other != &detection && Iou(other.box, detection.box) > 0.0);
     if (overlaps && !taken.empty()) regions[i] = Segment(frame.view, detection, taken);
     if (regions[i].empty()) continue;
     if (taken.empty()) taken = cv::Mat::zeros(regions[i].mask.size(), CV_8UC1);
