@@ -107,6 +107,9 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
            "detectors of people are set to find too many rather than too few.");
   list.Add("max_history", o.max_history_frames, {1, 1000}, "frames",
            "How late detections may come.");
+  list.Add("left_behind", o.left_behind_m, {0.0, 100.0}, "m",
+           "A nameless thing that was seen to move so far is left out while it stays in view, even "
+           "at rest: what was brought is likely to be taken away again.");
   list.Add("max_growth", o.max_growth, {1.0, 100.0}, "",
            "A carried region stops growing at so many times its detected size.");
   list.Group("region", o.region);
@@ -129,8 +132,10 @@ void ObjectTracker::Clear() {
 
 void ObjectTracker::StartWorld() {
   history_.clear();
-  for (Object& object : objects_)
+  for (Object& object : objects_) {
     object.filter.reset();
+    object.found_at.reset();
+  }
 }
 
 double ObjectTracker::AreaM2(const DepthRegion& region) const {
@@ -173,6 +178,7 @@ void ObjectTracker::MoveWorld(const Se3& T_world_last) {
     past.T_world_camera = T_new_old * past.T_world_camera;
   for (Object& object : objects_) {
     if (object.filter) object.filter->MoveWorld(T_new_old);
+    if (object.found_at) object.found_at = T_new_old * *object.found_at;
   }
 }
 
@@ -392,6 +398,7 @@ void ObjectTracker::AddUnknown(const DepthRegion& region, const Se3& T_world_cam
 void ObjectTracker::Forget() {
   constexpr double kBlindS = 0.15;  // a box without any depth lives no longer than this
   std::erase_if(objects_, [&](const Object& object) {
+    if (object.has_travelled && !object.region.empty()) return false;
     const bool was_mistaken =
         object.class_id < 0 && object.filter && object.filter->motion() == ObjectMotion::kStatic;
     if (was_mistaken) return true;
@@ -453,9 +460,18 @@ void ObjectTracker::Settle(const Se3& T_world_camera,
       object.filter->Update(T_world_camera, measurement, dt_s, options_.filter);
     }
     object.filtered = now_.stamp;
+    NoteTravel(object);
   }
   now_.is_settled = true;
   Remember();
+}
+
+void ObjectTracker::NoteTravel(Object& object) const {
+  if (object.class_id >= 0 || object.has_travelled) return;
+  if (!object.found_at) object.found_at = object.filter->position();
+  const double way_m = (object.filter->position() - *object.found_at).norm();
+  object.has_travelled =
+      object.filter->motion() == ObjectMotion::kMoving && way_m > options_.left_behind_m;
 }
 
 // Whether the object's surface stands where it stood a moment ago.

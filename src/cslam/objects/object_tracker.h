@@ -30,6 +30,7 @@ struct ObjectTrackerOptions {
   double bridge_s = 1.0;        // how long an undetected object is carried on
   double first_bridge_s = 0.2;  // ... if it was detected only once
   int max_history_frames = 30;  // how old a frame may be whose detections come late
+  double left_behind_m = 0.3;   // a nameless thing seen to go so far is not trusted while in view
   double max_growth = 1.3;      // of a carried region's size, before it no longer grows
   RegionOptions region;
   LabelOptions labels;
@@ -104,6 +105,8 @@ class ObjectTracker {
     Stamp filtered;                  // the newest frame its filter took in
     double reference_area_m2 = 0.0;  // of the region as detected
     bool is_detected_now = false;
+    std::optional<Eigen::Vector3d> found_at;  // world; of a nameless thing
+    bool has_travelled = false;               // a nameless thing that was seen to go a long way
     bool is_person() const { return class_id == kPersonClass; }
   };
   struct PastObject {
@@ -123,6 +126,7 @@ class ObjectTracker {
   void MoveWorld(const Se3& T_world_last);
   void Remember();
   DepthRegion Carried(const Frame& from, const DepthRegion& region, const Object& object) const;
+  void NoteTravel(Object& object) const;
   SurfaceMotion SurfaceMotionOf(const Object& object) const;
   void TakeIn(const Detections& detections);
   void Associate(const Frame& frame, const Detections& detections);

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace cslam {
 namespace {
 
@@ -154,6 +156,34 @@ TEST_F(ObjectTrackerTest, KeepsTwoThingsOfAClassApartWithTiesGoingToTheOlder) {
   ASSERT_EQ(objects.size(), 2U);
   EXPECT_EQ(objects[0].box, left);
   EXPECT_EQ(objects[1].box, right);
+}
+
+class TravellerTest : public ObjectTrackerTest {
+ protected:
+  // A panel moves 0.9 m to the right within a second, then rests for three.
+  void PlayTravel() {
+    for (int i = 0; i < 120; ++i) {
+      cv::Mat depth = Wall(4.0);
+      DrawPanel(depth, -0.5 + 0.03 * std::min(i, 30), 0.0, 2.0, 0.5, 0.5);
+      if (!tracker_) tracker_ = std::make_unique<ObjectTracker>(SceneCamera(), options_);
+      tracker_->Observe(FrameId(static_cast<std::uint32_t>(i)), StampOf(i), depth, Se3(), Se3(),
+                        nullptr);
+      tracker_->FindUnknown(Se3(), 300);
+      tracker_->Settle(Se3(), Eigen::Matrix3d::Zero());
+    }
+  }
+};
+
+TEST_F(TravellerTest, DoesNotTrustWhatCameFarAndHalted) {
+  PlayTravel();
+  ASSERT_EQ(tracker_->objects().size(), 1U);
+  EXPECT_EQ(LabelAt(420, 240, 2.0), KeypointLabel::kDynamic);
+}
+
+TEST_F(TravellerTest, TrustsWhatMovedLittleAndRests) {
+  options_.left_behind_m = 5.0;
+  PlayTravel();
+  EXPECT_TRUE(tracker_->objects().empty());
 }
 
 TEST_F(ObjectTrackerTest, FindsAMovingThingThatNobodyNamed) {
