@@ -122,7 +122,7 @@ def judge_loops(run, truth, verbose):
               f"{verdict} by {error[0]:.3f} m {error[1]:.2f} deg; {e['matches']}/"
               f"{e['ransac_inliers']}/{e['inliers']} {e['median_error_px']:.1f} px x{e['confirmations']}, drift {e['drift_m']:.3f}"
               f" m of {e['path_m']:.1f} m, depth {100 * e['depth_contradicted']:.1f} % of "
-              f"{e['depth_compared']}: {c['reason']}")
+              f"{e['depth_compared']}, expected {e.get('expected')}: {c['reason']}")
     return counts
 
 

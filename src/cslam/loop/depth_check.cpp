@@ -4,6 +4,8 @@
 
 #include "cslam/vision/depth_thumbnail.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -124,6 +126,17 @@ DepthComparison CompareDepth(const std::vector<PlacedDepth>& side_a,
     }
   }
   return result;
+}
+
+std::string WhyContradicted(const DepthComparison& depth, const DepthCheckOptions& options) {
+  if (depth.num_compared() < options.min_compared) {
+    return fmt::format("only {} depth readings can be compared", depth.num_compared());
+  }
+  if (depth.contradicted() > options.max_contradicted) {
+    return fmt::format("{:.0f} % of the depth contradicts it > {:.0f} %",
+                       100.0 * depth.contradicted(), 100.0 * options.max_contradicted);
+  }
+  return {};
 }
 
 }  // namespace cslam

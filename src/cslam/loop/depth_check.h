@@ -7,6 +7,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include <string>
 #include <vector>
 
 namespace cslam {
@@ -33,5 +34,8 @@ struct PlacedDepth {
 DepthComparison CompareDepth(const std::vector<PlacedDepth>& side_a,
                              const std::vector<PlacedDepth>& side_b, const Camera& camera,
                              const DepthCheckOptions& options);
+
+// Why depth says that the two sides are not the same place; empty if it does not.
+std::string WhyContradicted(const DepthComparison& depth, const DepthCheckOptions& options);
 
 }  // namespace cslam

@@ -54,6 +54,7 @@ enum class VerificationOutcome : std::uint8_t {
   kFewInliers,     // after guided matching
   kBadlySpread,    // inliers in few parts of the image only
   kMissingPoints,  // most of what should be in view is not found
+  kContradicted,   // by measured depth
 };
 
 // Where a frame was taken, if it was taken at the place, and what speaks for it.

@@ -6,6 +6,7 @@
 #include "cslam/loop/essential_graph.h"
 #include "cslam/loop/loop_fusion.h"
 #include "cslam/loop/loop_sides.h"
+#include "cslam/loop/overlap_check.h"
 #include "cslam/loop/place_candidates.h"
 #include "cslam/util/check.h"
 
@@ -60,18 +61,6 @@ std::string WhyTooFast(const MapView& map, const Keyframe& query, const Keyframe
   if (way_m <= options.max_drift_m + options.max_speed_m_s * transition->time_s) return {};
   return fmt::format("would take the camera {:.1f} m in {:.1f} s from one map to the other", way_m,
                      transition->time_s);
-}
-
-// Why the depth of both sides does not fit after the correction; empty if it does.
-std::string WhyContradicted(const DepthComparison& depth, const DepthCheckOptions& options) {
-  if (depth.num_compared() < options.min_compared) {
-    return fmt::format("only {} depth readings can be compared", depth.num_compared());
-  }
-  if (depth.contradicted() > options.max_contradicted) {
-    return fmt::format("{:.0f} % of the depth contradicts it > {:.0f} %",
-                       100.0 * depth.contradicted(), 100.0 * options.max_contradicted);
-  }
-  return {};
 }
 
 bool IsSeenFromNear(const MapPoint& point, const std::vector<std::uint8_t>& is_near) {
@@ -143,6 +132,7 @@ LoopRecord LoopCloser::Examine(const Keyframe& query, const PlaceCandidate& cand
   record.evidence.num_matches = seen.num_matches;
   record.evidence.num_ransac_inliers = seen.num_ransac_inliers;
   record.evidence.num_inliers = seen.num_inliers;
+  record.evidence.num_expected = seen.num_expected;
   record.evidence.inlier_spread = seen.spread();
   record.evidence.median_error_px = seen.median_error_px;
   if (!seen.IsAccepted()) {
@@ -151,6 +141,11 @@ LoopRecord LoopCloser::Examine(const Keyframe& query, const PlaceCandidate& cand
   }
   record.T_match_query = match.T_world_camera.Inverse() * seen.T_world_camera;
   record.evidence.num_confirmations = 1;
+  const DepthComparison depth =
+      CompareWithPlace(map, candidate.keyframe, {query.data->depth_small_mm, seen.T_world_camera},
+                       sensor_.camera, options_.depth_check);
+  record.evidence.depth_compared = depth.num_compared();
+  record.evidence.depth_contradicted = depth.contradicted();
   if (match.map == query.map) {
     const PoseDifference drift = Difference(query.T_world_camera, seen.T_world_camera);
     record.evidence.path_m = PathLength(map, query, match);
@@ -230,6 +225,11 @@ std::optional<MapCorrection> LoopCloser::Close(LoopRecord& record, const MapView
   record.evidence.depth_compared = depth.num_compared();
   record.evidence.depth_contradicted = depth.contradicted();
   record.reason = WhyContradicted(depth, options_.depth_check);
+  if (record.reason.empty() && correction.merge_into.valid()) {
+    const OverlapComparison overlap = CompareOverlap(view, correction.map, correction.merge_into,
+                                                     sensor_, options_.fusion, options_.overlap);
+    record.reason = WhyContradicted(overlap, options_.overlap);
+  }
   if (!record.reason.empty()) return std::nullopt;
 
   const LoopSides sides = SidesOf(map, correction.loop.match, correction.loop.query,

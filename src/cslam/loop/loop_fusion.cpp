@@ -86,6 +86,14 @@ Eigen::Vector3d CorrectedView::p_world(const MapPoint& point) const {
   return moves_[point.reference.index()] * point.p_world;
 }
 
+PointRecall RecallPoints(const CorrectedView& view, KeyframeId keyframe,
+                         std::span<const PointId> points, const PlaceSensor& sensor,
+                         const LoopFusionOptions& options) {
+  const Sightings sightings =
+      FindPoints(view, *view.map().FindKeyframe(keyframe), points, sensor, options);
+  return {static_cast<int>(sightings.points.size()), static_cast<int>(sightings.matches.size())};
+}
+
 LoopFusions FindFusions(const CorrectedView& view, std::span<const KeyframeId> moving_side,
                         std::span<const PointId> points_of_fixed_side, const PlaceSensor& sensor,
                         const LoopFusionOptions& options) {

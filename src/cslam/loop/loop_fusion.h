@@ -31,6 +31,15 @@ struct LoopFusions {
   std::vector<FoundPoint> found;
 };
 
+// How many of the points a keyframe should see it sees.
+struct PointRecall {
+  int num_expected = 0;
+  int num_found = 0;
+};
+PointRecall RecallPoints(const CorrectedView& view, KeyframeId keyframe,
+                         std::span<const PointId> points, const PlaceSensor& sensor,
+                         const LoopFusionOptions& options);
+
 // Looks for the points of one side of a loop in the keyframes of the other, where they appear once
 // the correction is applied. A point of the moving side is paired with the one it is found as most
 // often.

@@ -41,6 +41,20 @@ void Describe(OptionList& list, LoopFusionOptions& o) {
            "Most differing descriptor bits of two sightings of one point.");
 }
 
+void Describe(OptionList& list, OverlapCheckOptions& o) {
+  list.Add("max_keyframes", o.max_keyframes, {1, 10'000}, "keyframes",
+           "Keyframes of the map that moves that are held against the other, spread over time.");
+  list.Add("max_distance", o.max_distance_m, {0.0, 100.0}, "m",
+           "Two keyframes look at the same if they stand no further apart than this ...");
+  list.Add("max_angle", o.max_angle_deg, {0.0, 180.0}, "deg", "... and are turned no further.");
+  list.Add("min_expected", o.min_expected, {1, 10'000}, "points",
+           "With fewer points of the one in the view of the other nothing is said.");
+  list.Add("min_found_share", o.min_found_share, {0.0, 1.0}, "",
+           "Two keyframes contradict each other if a smaller share of the points is found.");
+  list.Add("max_contradicting", o.max_contradicting, {0.0, 1.0}, "",
+           "Two maps are not merged if a larger share of the keyframes contradict.");
+}
+
 namespace {
 
 void DescribeCandidates(OptionList& list, LoopOptions& o) {
@@ -94,6 +108,7 @@ void Describe(OptionList& list, LoopOptions& o) {
   list.Group("depth_check", o.depth_check);
   list.Group("graph", o.graph);
   list.Group("fusion", o.fusion);
+  list.Group("overlap", o.overlap);
 }
 
 }  // namespace cslam

@@ -40,6 +40,17 @@ struct LoopFusionOptions {
 };
 void Describe(OptionList& list, LoopFusionOptions& options);
 
+// When what two maps know of the same places contradicts that they are one.
+struct OverlapCheckOptions {
+  int max_keyframes = 40;
+  double max_distance_m = 1.0;
+  double max_angle_deg = 30.0;
+  int min_expected = 50;
+  double min_found_share = 0.1;
+  double max_contradicting = 0.25;
+};
+void Describe(OptionList& list, OverlapCheckOptions& options);
+
 struct LoopOptions {
   CandidateOptions candidates{.max_candidates = 3};
   int min_shared_points = 15;
@@ -63,6 +74,7 @@ struct LoopOptions {
   DepthCheckOptions depth_check;
   EssentialGraphOptions graph;
   LoopFusionOptions fusion;
+  OverlapCheckOptions overlap;
 };
 void Describe(OptionList& list, LoopOptions& options);
 

@@ -94,6 +94,18 @@ std::vector<PlacedDepth> PlacedDepths(const CorrectedView& view,
   return views;
 }
 
+DepthComparison CompareWithPlace(const MapView& map, KeyframeId place, const PlacedDepth& view,
+                                 const Camera& camera, const DepthCheckOptions& options) {
+  std::vector<PlacedDepth> seen{
+      {map.FindKeyframe(place)->data->depth_small_mm, map.FindKeyframe(place)->T_world_camera}};
+  const auto limit = static_cast<std::size_t>(options.keyframes_per_side - 1);
+  for (const CovisibleKeyframe& n : map.Neighbours(place, 1, limit)) {
+    const Keyframe& keyframe = *map.FindKeyframe(n.id);
+    seen.push_back({keyframe.data->depth_small_mm, keyframe.T_world_camera});
+  }
+  return CompareDepth(seen, {view}, camera, options);
+}
+
 std::vector<PointId> UsablePoints(const MapView& map, std::span<const KeyframeId> keyframes) {
   std::vector<PointId> points;
   for (const KeyframeId id : keyframes) {

@@ -42,6 +42,10 @@ LoopSides SidesOf(const MapView& map, KeyframeId fixed_end, KeyframeId moving_en
 std::vector<PlacedDepth> PlacedDepths(const CorrectedView& view,
                                       std::span<const KeyframeId> keyframes);
 
+// How the depth a camera measured fits that of a keyframe and its best neighbours.
+DepthComparison CompareWithPlace(const MapView& map, KeyframeId place, const PlacedDepth& view,
+                                 const Camera& camera, const DepthCheckOptions& options);
+
 // The usable points the keyframes see, by id.
 std::vector<PointId> UsablePoints(const MapView& map, std::span<const KeyframeId> keyframes);
 

@@ -46,7 +46,8 @@ PlaceHint PlaceStage::Find(const LostFrame& frame, const MapSnapshot& snapshot) 
   PlaceHint hint;
   hint.frame = frame.data->frame;
   hint.stamp = frame.data->stamp;
-  const RelocalisationResult result = relocaliser_.Find(frame.data->features, snapshot.map, index_);
+  const RelocalisationResult result =
+      relocaliser_.Find(frame.data->features, snapshot.map, index_, {}, frame.data->depth_small_mm);
   hint.reason = result.reason;
   if (!result.found) return hint;
   hint.is_found = true;

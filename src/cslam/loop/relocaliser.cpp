@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/loop/relocaliser.h"
 
+#include "cslam/loop/loop_sides.h"
 #include "cslam/util/options.h"
 
 #include <algorithm>
@@ -81,13 +82,29 @@ void Describe(OptionList& list, RelocaliserOptions& o) {
   list.Add("rival_angle", o.rival_angle_deg, {0.1, 180.0}, "deg",
            "Poses turned against each other by more than this are two places.");
   list.Group("verification", o.verification);
+  list.Group("depth_check", o.depth_check);
 }
 
 Relocaliser::Relocaliser(PlaceSensor sensor, const RelocaliserOptions& options)
     : sensor_(std::move(sensor)), options_(options) {}
 
+// By looks, and by what depth the keyframes there measured.
+PlaceVerification Relocaliser::Verify(const FrameFeatures& features, const MapView& map,
+                                      KeyframeId candidate, const cv::Mat& depth_small_mm) const {
+  PlaceVerification seen = VerifyPlace(features, map, candidate, sensor_, options_.verification);
+  if (!seen.IsAccepted() || depth_small_mm.empty()) return seen;
+  const DepthComparison depth = CompareWithPlace(
+      map, candidate, {depth_small_mm, seen.T_world_camera}, sensor_.camera, options_.depth_check);
+  const std::string objection = WhyContradicted(depth, options_.depth_check);
+  if (objection.empty()) return seen;
+  seen.outcome = VerificationOutcome::kContradicted;
+  seen.reason += ", but " + objection;
+  return seen;
+}
+
 RelocalisationResult Relocaliser::Find(const FrameFeatures& features, const MapView& map,
-                                       const PlaceIndex& index, const MapFilter& may_search) const {
+                                       const PlaceIndex& index, const MapFilter& may_search,
+                                       const cv::Mat& depth_small_mm) const {
   const auto is_excluded = [&](KeyframeId id) {
     const Keyframe* keyframe = map.FindKeyframe(id);
     return keyframe == nullptr || (may_search && !may_search(keyframe->map));
@@ -100,8 +117,7 @@ RelocalisationResult Relocaliser::Find(const FrameFeatures& features, const MapV
   for (const PlaceCandidate& place : places) {
     if (IsFoundAlready(map, place.keyframe, result.attempts)) continue;
     result.candidates.push_back(place);
-    result.attempts.push_back(
-        VerifyPlace(features, map, place.keyframe, sensor_, options_.verification));
+    result.attempts.push_back(Verify(features, map, place.keyframe, depth_small_mm));
     const PlaceVerification& attempt = result.attempts.back();
     const PlaceVerification& leader = result.attempts[best];
     const bool leads = attempt.IsAccepted() != leader.IsAccepted()

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cslam/loop/geometric_verification.h"
+#include "cslam/loop/loop_options.h"
 #include "cslam/loop/place_candidates.h"
 #include "cslam/loop/place_index.h"
 #include "cslam/map/map_view.h"
@@ -22,6 +23,7 @@ struct RelocaliserOptions {
   double rival_ratio = 0.7;
   double rival_distance_m = 0.5;
   double rival_angle_deg = 20.0;
+  DepthCheckOptions depth_check;
   VerificationOptions verification;
 };
 void Describe(OptionList& list, RelocaliserOptions& options);
@@ -52,11 +54,16 @@ class Relocaliser {
   Relocaliser(PlaceSensor sensor, const RelocaliserOptions& options);
 
   // Searches all maps of the atlas that may be searched. The index may hold keyframes that the map
-  // no longer has.
+  // no longer has. depth_small_mm: the frame's thumbnail, to be held against the map's; may be
+  // empty.
   RelocalisationResult Find(const FrameFeatures& features, const MapView& map,
-                            const PlaceIndex& index, const MapFilter& may_search = {}) const;
+                            const PlaceIndex& index, const MapFilter& may_search = {},
+                            const cv::Mat& depth_small_mm = {}) const;
 
  private:
+  PlaceVerification Verify(const FrameFeatures& features, const MapView& map, KeyframeId candidate,
+                           const cv::Mat& depth_small_mm) const;
+
   PlaceSensor sensor_;
   RelocaliserOptions options_;
 };

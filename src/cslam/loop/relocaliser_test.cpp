@@ -91,6 +91,18 @@ TEST_F(RelocaliserTest, SaysWhyAnUnknownPlaceIsNotFound) {
   EXPECT_FALSE(result.reason.empty());
 }
 
+TEST_F(RelocaliserTest, RefusesAPlaceThatMeasuredDepthContradicts) {
+  const test::RoomView frame =
+      test::LookAtRoom(mapper_.room(), mapper_.camera(), test::CirclePose(0.12), kFrame);
+  const FrameFeatures& features = frame.data->features;
+  const cv::Mat seen = frame.data->depth_small_mm;
+  EXPECT_TRUE(relocaliser_.Find(features, mapper_.map(), index_, {}, seen).found);
+  const cv::Mat wall(seen.size(), CV_16UC1, cv::Scalar(600));  // right before the camera
+  const RelocalisationResult result = relocaliser_.Find(features, mapper_.map(), index_, {}, wall);
+  EXPECT_FALSE(result.found);
+  EXPECT_NE(result.reason.find("depth contradicts"), std::string::npos) << result.reason;
+}
+
 TEST_F(RelocaliserTest, FindsNothingInAnEmptyMap) {
   const RelocalisationResult result = relocaliser_.Find(Look(0.12), MapView(), PlaceIndex(), {});
   EXPECT_FALSE(result.found);

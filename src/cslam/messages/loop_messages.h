@@ -99,6 +99,7 @@ struct LoopEvidence {
   int num_matches = 0;         // descriptor matches
   int num_ransac_inliers = 0;  // of those, that agree on a pose
   int num_inliers = 0;         // the verified pose agrees with
+  int num_expected = 0;        // points that should have been in view
   double inlier_spread = 0.0;  // share of the image's cells that hold one
   double median_error_px = 0.0;
   int num_confirmations = 0;        // keyframes that found the same, the first included

@@ -19,6 +19,7 @@ JsonObject ToJson(const LoopEvidence& evidence) {
   json.Add("matches", evidence.num_matches);
   json.Add("ransac_inliers", evidence.num_ransac_inliers);
   json.Add("inliers", evidence.num_inliers);
+  json.Add("expected", evidence.num_expected);
   json.Add("inlier_spread", evidence.inlier_spread);
   json.Add("median_error_px", evidence.median_error_px);
   json.Add("confirmations", evidence.num_confirmations);

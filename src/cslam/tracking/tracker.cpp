@@ -181,6 +181,11 @@ void Tracker::TrackFrame(CurrentFrame& current) {
     FailToTrack(current, fmt::format("{} inliers < {}", inliers, options_.min_inliers));
     return;
   }
+  const int matches = current.result.num_map_matches;
+  if (inliers < options_.sure_inliers && inliers < options_.min_inlier_share * matches) {
+    FailToTrack(current, fmt::format("{} inliers of {} matches", inliers, matches));
+    return;
+  }
   CountSightings(current);
   current.is_tracked = true;
   state_ = TrackingState::kTracking;

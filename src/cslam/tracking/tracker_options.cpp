@@ -68,6 +68,12 @@ void Describe(OptionList& list, TrackerOptions& o) {
            "Inliers of the first pose estimate, before the local map is searched.");
   list.Add("min_inliers", o.min_inliers, {5, 1000}, "matches",
            "Inliers of the final pose; with fewer the frame is not tracked.");
+  list.Add(
+      "min_inlier_share", o.min_inlier_share, {0.0, 1.0}, "",
+      "Smallest share of the map matches that agrees with the final pose: right poses have 45 % "
+      "and more, wrong ones 20 to 40 % ...");
+  list.Add("sure_inliers", o.sure_inliers, {0, 10'000}, "matches",
+           "... but so many inliers suffice whatever their share.");
   list.Add("use_provisional_below", o.use_provisional_below, {0, 10'000}, "matches",
            "With fewer map matches the final pose also uses the last frame's own depth points.");
   list.Add("full_trust_views", o.full_trust_views, {1, 1000}, "keyframes",

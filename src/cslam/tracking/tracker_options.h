@@ -55,6 +55,8 @@ struct TrackerOptions {
   int min_reference_matches = 15;
   int min_first_inliers = 10;
   int min_inliers = 30;
+  double min_inlier_share = 0.4;
+  int sure_inliers = 100;
   int use_provisional_below = 100;
   int use_held_back_below = 100;
   int full_trust_views = 8;
