@@ -34,6 +34,8 @@ const char* ToString(BeliefCause cause) {
       return "looked_through";
     case BeliefCause::kMerged:
       return "merged";
+    case BeliefCause::kDisplaced:
+      return "displaced";
   }
   return "?";
 }

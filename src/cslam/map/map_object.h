@@ -28,7 +28,7 @@ enum class ObjectState : std::uint8_t {
 const char* ToString(ObjectState state);
 
 // Why a belief changed.
-enum class BeliefCause : std::uint8_t { kCreated, kSeen, kMissed, kLookedThrough, kMerged };
+enum class BeliefCause : std::uint8_t { kCreated, kSeen, kMissed, kLookedThrough, kMerged, kDisplaced };
 const char* ToString(BeliefCause cause);
 
 struct BeliefStep {
@@ -91,6 +91,7 @@ struct MapObject {
   Box current_box;  // when seen last
   TrackId track;    // the tracker's name for it when seen last
   KeyframeId first_keyframe;
+  KeyframeId arrived_keyframe;  // when its present stay was first seen: later, if it was gone
   KeyframeId last_keyframe;
   Stamp first_seen;
   Stamp last_seen;

@@ -78,19 +78,18 @@ ChangeList::ChangeList(const Camera& camera, const MapObjectOptions& options,
                        const ObjectClasses& classes)
     : camera_(camera), options_(options), classes_(classes) {}
 
-// Sizes are compared by the two largest sides: the third is often not seen.
+// Sizes are compared by the middle one of the sides: the least is often hardly seen, and the
+// greatest is the first to take in something that is not the thing.
 bool ChangeList::LooksLike(const MapObject& a, const MapObject& b) const {
   if (!classes_.AreAlike(a.class_id, b.class_id)) return false;
   if (ColourLikeness(a.colours, b.colours) < options_.min_likeness) return false;
-  Eigen::Vector3d size_a = a.box.size_m;
-  Eigen::Vector3d size_b = b.box.size_m;
-  std::sort(size_a.begin(), size_a.end());
-  std::sort(size_b.begin(), size_b.end());
-  for (int i = 1; i < 3; ++i) {
-    const double ratio = std::max(size_a[i], 0.01) / std::max(size_b[i], 0.01);
-    if (ratio > options_.max_size_ratio || ratio < 1.0 / options_.max_size_ratio) return false;
-  }
-  return true;
+  const auto middle_side = [](const MapObject& object) {
+    Eigen::Vector3d size = object.box.size_m;
+    std::sort(size.begin(), size.end());
+    return std::max(size[1], 0.01);
+  };
+  const double ratio = middle_side(a) / middle_side(b);
+  return ratio <= options_.max_size_ratio && ratio >= 1.0 / options_.max_size_ratio;
 }
 
 bool ChangeList::StandsAt(const MapView& map, const MapObject& a, const MapObject& b) const {
@@ -109,6 +108,10 @@ bool ChangeList::Join(const MapView& map, MapChange& change, const MapChange& ot
   const MapObject* new_object = map.FindObject(added.object);
   if (old_object == nullptr || new_object == nullptr || old_object == new_object) return false;
   if (old_object->map != new_object->map) return false;
+  // What was seen while the other was there is neither the same nor in its place.
+  if (!(old_object->last_keyframe < new_object->arrived_keyframe)) {
+    return false;
+  }
   MapChange joined = removed;
   if (LooksLike(*old_object, *new_object)) {
     joined.kind = MapChangeKind::kMoved;
@@ -139,7 +142,35 @@ void ChangeList::OnGone(Map& map, ObjectId id, Stamp now, int num_views,
   change.num_absent_views = num_views;
   change.is_between_sessions = object.last_session < session;
   change.confidence = Confidence(map, change);
+  if (TakeOverReplacement(map, change)) return;
   AddJoined(map, change, [&](MapChange& a, const MapChange& b) { return Join(map, a, b); });
+}
+
+// Of a chair with a bear on it the chair was replaced, even if the bear was missed first.
+bool ChangeList::TakeOverReplacement(Map& map, const MapChange& removed) const {
+  const MapObject& object = *map.FindObject(removed.object);
+  std::vector<MapChange> changes = map.changes();
+  for (MapChange& change : changes) {
+    const MapObject* smaller = map.FindObject(change.object);
+    if (change.kind != MapChangeKind::kReplaced || smaller == nullptr ||
+        smaller->box.size_m.prod() >= object.box.size_m.prod()) {
+      continue;
+    }
+    MapChange added;
+    added.kind = MapChangeKind::kAdded;
+    added.object = change.new_object;
+    added.reported = change.reported;
+    added.num_seen_views = change.num_seen_views;
+    added.is_between_sessions = change.is_between_sessions;
+    MapChange joined = removed;
+    if (!Join(map, joined, added) || joined.kind != MapChangeKind::kReplaced) continue;
+    change.kind = MapChangeKind::kRemoved;
+    change.new_object = ObjectId();
+    changes.push_back(joined);
+    map.SetChanges(std::move(changes));
+    return true;
+  }
+  return false;
 }
 
 void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t session) const {
@@ -178,14 +209,46 @@ void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t sessi
   }
 }
 
+// Two things cannot be in one place: the old one is gone although nobody could look through.
+void ChangeList::OnDisplaced(Map& map, ObjectId id, ObjectId by, Stamp now,
+                             std::uint32_t session) const {
+  const MapObject& object = *map.FindObject(id);
+  std::vector<MapChange> changes = map.changes();
+  const bool is_taken = std::any_of(changes.begin(), changes.end(),
+                                    [&](const MapChange& c) { return c.new_object == by; });
+  MapChange change;
+  change.kind = is_taken ? MapChangeKind::kRemoved : MapChangeKind::kReplaced;
+  change.object = id;
+  if (!is_taken) change.new_object = by;
+  change.last_seen_there = object.last_seen;
+  change.first_seen_absent = object.absent_since;
+  change.reported = now;
+  change.num_seen_views = map.FindObject(by)->num_sightings;
+  change.is_between_sessions = object.last_session < session;
+  change.confidence = Confidence(map, change);
+  if (!is_taken) {
+    std::erase_if(changes, [&](const MapChange& c) {
+      return IsSingle(c, MapChangeKind::kAdded) && c.object == by;
+    });
+  }
+  changes.push_back(change);
+  map.SetChanges(std::move(changes));
+}
+
 void ChangeList::OnMerged(Map& map, ObjectId keep, ObjectId drop) const {
   std::vector<MapChange> changes = map.changes();
   for (MapChange& change : changes) {
     if (change.object == drop) change.object = keep;
     if (change.new_object == drop) change.new_object = keep;
   }
-  const auto is_void = [](const MapChange& c) { return c.object == c.new_object; };
-  std::erase_if(changes, is_void);
+  std::erase_if(changes, [](const MapChange& c) { return c.object == c.new_object; });
+  // What came as a whole did not come in another piece as well.
+  const std::vector<MapChange> all = changes;
+  std::erase_if(changes, [&](const MapChange& c) {
+    return IsSingle(c, MapChangeKind::kAdded) &&
+           std::any_of(all.begin(), all.end(),
+                       [&](const MapChange& other) { return other.new_object == c.object; });
+  });
   if (!changes.empty() || !map.changes().empty()) map.SetChanges(std::move(changes));
 }
 

@@ -30,12 +30,16 @@ class ChangeList {
   // The object is believed in for the first time, or again after it was gone.
   void OnArrived(Map& map, ObjectId object, Stamp now, std::uint32_t session) const;
 
+  // Another thing stands where the object stood.
+  void OnDisplaced(Map& map, ObjectId object, ObjectId by, Stamp now, std::uint32_t session) const;
+
   // drop turned out to be keep.
   void OnMerged(Map& map, ObjectId keep, ObjectId drop) const;
 
  private:
   bool LooksLike(const MapObject& a, const MapObject& b) const;
   bool StandsAt(const MapView& map, const MapObject& a, const MapObject& b) const;
+  bool TakeOverReplacement(Map& map, const MapChange& removed) const;
   bool Join(const MapView& map, MapChange& change, const MapChange& other) const;
 
   const Camera camera_;

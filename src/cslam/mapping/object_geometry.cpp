@@ -140,6 +140,25 @@ Interval RobustInterval(std::span<const Eigen::Vector3f> points, const Eigen::Ve
   return {min, Quantile(values, 1.0 - kLeftOut)};
 }
 
+// Readings between two surfaces, as sensors make them at edges, have few neighbours at their depth.
+bool IsOnSurface(const DepthView& view, int u, int v, float z) {
+  constexpr int kMinNeighbours = 4;  // of 8
+  const float step = std::max(0.03F, 0.03F * z);
+  int num_near = 0;
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      const int nu = u + du;
+      const int nv = v + dv;
+      if ((du == 0 && dv == 0) || nu < 0 || nv < 0 || nu >= view.depth_mm.cols ||
+          nv >= view.depth_mm.rows) {
+        continue;
+      }
+      num_near += std::abs(view.DepthM(nu, nv) - z) <= step ? 1 : 0;
+    }
+  }
+  return num_near >= kMinNeighbours;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3f> PointsOfRegion(const DepthView& view, const DepthRegion& region,
@@ -149,8 +168,9 @@ std::vector<Eigen::Vector3f> PointsOfRegion(const DepthView& view, const DepthRe
   for (int v = 0; v < region.mask.rows; ++v) {
     for (int u = 0; u < region.mask.cols; ++u) {
       if (region.mask.at<std::uint8_t>(v, u) == 0) continue;
-      const double z = static_cast<double>(view.DepthM(u, v));
-      if (z > 0.0) all.push_back(view.PointAt(u, v, z).cast<float>());
+      const float z = view.DepthM(u, v);
+      if (z <= 0.0F || !IsOnSurface(view, u, v, z)) continue;
+      all.push_back(view.PointAt(u, v, static_cast<double>(z)).cast<float>());
     }
   }
   if (all.size() <= max_count) return all;
@@ -192,15 +212,23 @@ ObjectSurface Joined(const ObjectSurface& surface, const ObjectSurface& other,
   return joined;
 }
 
-bool IsTrusted(const SurfaceVoxel& voxel) {
-  return voxel.num_inside > 0 && voxel.num_inside >= voxel.num_outside;
-}
-
 std::vector<Eigen::Vector3f> TrustedPoints(const ObjectSurface& surface) {
+  constexpr double kUsual = 0.9;     // quantile of how often cells are seen
+  constexpr double kMinShare = 0.1;  // of that
+  constexpr int kEnough = 4;         // views that always suffice
+  std::vector<double> counts;
+  counts.reserve(surface.voxels.size());
+  for (const SurfaceVoxel& voxel : surface.voxels)
+    counts.push_back(voxel.num_inside);
+  if (counts.empty()) return {};
+  const int min_inside =
+      std::clamp(static_cast<int>(std::lround(kMinShare * Quantile(counts, kUsual))), 1, kEnough);
   std::vector<Eigen::Vector3f> points;
   points.reserve(surface.voxels.size());
   for (const SurfaceVoxel& voxel : surface.voxels) {
-    if (IsTrusted(voxel)) points.push_back(voxel.p);
+    if (voxel.num_inside >= min_inside && voxel.num_inside >= voxel.num_outside) {
+      points.push_back(voxel.p);
+    }
   }
   return points;
 }
@@ -209,9 +237,8 @@ double Overlap(const ObjectSurface& surface, std::span<const Eigen::Vector3f> po
                double reach_m) {
   if (points.empty() || surface.voxels.empty()) return 0.0;
   std::vector<Cell> taken;  // of the coarse grid, each with its neighbours
-  for (const SurfaceVoxel& voxel : surface.voxels) {
-    if (IsTrusted(voxel)) taken.push_back(CellOf(voxel.p, reach_m));
-  }
+  for (const Eigen::Vector3f& p : TrustedPoints(surface))
+    taken.push_back(CellOf(p, reach_m));
   std::sort(taken.begin(), taken.end());
   taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
   int num_on = 0;

@@ -28,8 +28,8 @@ ObjectSurface WithView(const ObjectSurface& surface, std::span<const Eigen::Vect
 ObjectSurface Joined(const ObjectSurface& surface, const ObjectSurface& other,
                      const Se3& T_surface_other);
 
-// Cells seen inside the region at least as often as outside.
-bool IsTrusted(const SurfaceVoxel& voxel);
+// The points of cells that were in the object's region at least as often as outside, and not just
+// by chance: what a single view has run into counts once there are many.
 std::vector<Eigen::Vector3f> TrustedPoints(const ObjectSurface& surface);
 
 // Share of points (in the surface's frame) with a trusted cell within about reach_m.

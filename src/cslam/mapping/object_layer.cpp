@@ -89,7 +89,6 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
 
   report.num_changed += TakeEvidence(map, proposal);
   const DepthView& view = proposal.objects.view;
-  objects_of_tracks_.clear();
   if (view.empty()) return report;
   const auto sightings =
       PlaceSightings(proposal.objects.sightings, view, T_world_camera, classes_, options_.objects);
@@ -97,15 +96,28 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
       AssociateSightings(map, map_id_, sightings, view, T_world_camera, classes_, options_.objects);
   std::vector<ObjectId> seen;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (!known[i] && IsOfKnownTrack(map, sightings[i])) continue;
     const ObjectId id = known[i] ? *known[i] : AddObject(map, proposal, sightings[i]);
     if (known[i]) Renew(map, id, proposal, sightings[i]);
     report.num_new += known[i] ? 0 : 1;
     objects_of_tracks_[sightings[i].sighting->track] = id;
     seen.push_back(id);
   }
+  for (const ObjectId id : seen)
+    report.num_changed += DisplaceOthers(map, id, proposal);
   AssignKeypoints(map, proposal.id);
   report.num_changed += MergeDoubles(map, seen, proposal.data->stamp);
   return report;
+}
+
+// What the tracker has followed without a break is no second thing: its region has run into
+// something else, like the wall behind it.
+bool ObjectLayer::IsOfKnownTrack(const Map& map, const PlacedSighting& sighting) const {
+  const auto known = objects_of_tracks_.find(sighting.sighting->track);
+  const MapObject* object =
+      known == objects_of_tracks_.end() ? nullptr : map.FindObject(known->second);
+  return object != nullptr && object->map == map_id_ && object->state != ObjectState::kAbsent &&
+         object->num_sightings > 1;
 }
 
 ObjectId ObjectLayer::AddObject(Map& map, const KeyframeProposal& proposal,
@@ -119,6 +131,7 @@ ObjectId ObjectLayer::AddObject(Map& map, const KeyframeProposal& proposal,
   object.surface = std::make_shared<const ObjectSurface>(std::move(surface));
   object.first_box = sighting.sighting->box;
   object.first_keyframe = proposal.id;
+  object.arrived_keyframe = proposal.id;
   object.first_seen = sighting.sighting->detected;
   object.first_session = static_cast<std::uint32_t>(map.SessionOf(proposal.id));
   Note(object, proposal.data->stamp, BeliefCause::kCreated);
@@ -249,6 +262,7 @@ bool ObjectLayer::Decide(Map& map, ObjectId id, const KeyframeProposal& proposal
   const double value = BeliefOf(object);
   if (value >= belief.activate_at && !object.is_active) {
     const bool is_arrival = object.state != ObjectState::kPresent;
+    if (object.state == ObjectState::kAbsent) object.arrived_keyframe = proposal.id;
     object.state = ObjectState::kPresent;
     map.SetObject(object);
     Activate(map, id);
@@ -311,6 +325,54 @@ void ObjectLayer::SweepPlace(Map& map, ObjectId id, const KeyframeProposal& prop
         LookAtPlace({&sample, 1}, T_camera_world, sampler, 0.0, options_.objects.view);
     if (seen.num_through > 0) map.AssignPoint(point->id, id);
   }
+}
+
+// Share of the object's surface inside the other's box.
+double ObjectLayer::ShareInside(const Map& map, const MapObject& object,
+                                const MapObject& other) const {
+  const Se3 T_other_object = map.T_world_object(other).Inverse() * map.T_world_object(object);
+  const Eigen::Matrix3d R_box = other.box.rotation.toRotationMatrix().transpose();
+  int inside = 0;
+  for (const Eigen::Vector3f& sample : object.surface->samples) {
+    const Eigen::Vector3d p = R_box * (T_other_object * sample.cast<double>() - other.box.center);
+    inside += (p.cwiseAbs().array() <= 0.5 * other.box.size_m.array()).all() ? 1 : 0;
+  }
+  return static_cast<double>(inside) /
+         static_cast<double>(std::max<std::size_t>(1, object.surface->samples.size()));
+}
+
+// What stood where a new thing stands, and has not been seen since, is gone. Large things first:
+// of a chair with a bear on it the chair was replaced.
+int ObjectLayer::DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& proposal) const {
+  const MapObject& comer = *map.FindObject(id);
+  if (comer.state != ObjectState::kPresent ||
+      comer.num_sightings < options_.objects.min_displacing_views) {
+    return 0;
+  }
+  std::vector<std::pair<double, ObjectId>> displaced;
+  for (const ObjectId other_id : map.Objects()) {
+    const MapObject& other = *map.FindObject(other_id);
+    if (other_id == id || other.map != comer.map || other.state != ObjectState::kPresent ||
+        !other.surface || !(other.last_keyframe < comer.arrived_keyframe) ||
+        classes_.AreAlike(other.class_id, comer.class_id)) {
+      continue;
+    }
+    if (ShareInside(map, other, comer) < options_.objects.min_displaced) continue;
+    displaced.emplace_back(-other.box.size_m.prod(), other_id);
+  }
+  std::sort(displaced.begin(), displaced.end());
+  for (const auto& [volume, other_id] : displaced) {
+    MapObject other = *map.FindObject(other_id);
+    other.state = ObjectState::kAbsent;
+    other.is_active = false;
+    other.log_odds = std::min(other.log_odds, LogOdds(options_.objects.belief.absent_at));
+    other.absent_since = map.FindObject(id)->first_seen;
+    Note(other, proposal.data->stamp, BeliefCause::kDisplaced);
+    map.SetObject(std::move(other));
+    changes_.OnDisplaced(map, other_id, id, proposal.data->stamp,
+                         static_cast<std::uint32_t>(map.SessionOf(proposal.id)));
+  }
+  return static_cast<int>(displaced.size());
 }
 
 int ObjectLayer::MergeAllDoubles(Map& map) {

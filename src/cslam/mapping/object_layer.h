@@ -44,6 +44,7 @@ class ObjectLayer {
  private:
   using TrackObjects = std::map<TrackId, ObjectId>;
 
+  bool IsOfKnownTrack(const Map& map, const PlacedSighting& sighting) const;
   ObjectId AddObject(Map& map, const KeyframeProposal& proposal,
                      const PlacedSighting& sighting) const;
   void Renew(Map& map, ObjectId id, const KeyframeProposal& proposal,
@@ -58,6 +59,8 @@ class ObjectLayer {
               const ObjectEvidence& evidence) const;
   void Activate(Map& map, ObjectId id) const;
   void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
+  double ShareInside(const Map& map, const MapObject& object, const MapObject& other) const;
+  int DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   int MergeDoubles(Map& map, std::span<const ObjectId> seen, Stamp now);
   Eigen::Vector3d UpWorld() const;
 
@@ -70,7 +73,7 @@ class ObjectLayer {
   const ExtentSource extent_source_;
   const ChangeList changes_;
 
-  TrackObjects objects_of_tracks_;           // of the newest keyframe
+  TrackObjects objects_of_tracks_;           // as seen last
   std::map<MapId, Eigen::Vector3d> up_sum_;  // of the cameras' upward axes, world
   MapId map_id_;
 };

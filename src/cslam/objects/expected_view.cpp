@@ -35,6 +35,10 @@ PlaceVerdict Judge(const ExpectedView& view, const ExpectedViewOptions& options)
     return PlaceVerdict::kUnobserved;
   }
   if (view.num_through >= options.min_through_share * visible) return PlaceVerdict::kLookedThrough;
+  if (view.num_through >= options.min_taken_through * visible &&
+      view.num_through + view.num_taken >= options.min_through_share * visible) {
+    return PlaceVerdict::kLookedThrough;
+  }
   if (view.num_standing >= options.min_standing_share * visible) return PlaceVerdict::kStanding;
   return PlaceVerdict::kUnobserved;
 }
@@ -52,6 +56,8 @@ void Describe(OptionList& list, ExpectedViewOptions& o) {
   list.Add("min_through", o.min_through_share, {0.0, 1.0}, "",
            "Share of that which must be looked through for the place to be empty; some of what "
            "is stored may be floor or wall.");
+  list.Add("min_taken_through", o.min_taken_through, {0.0, 1.0}, "",
+           "... if another thing stands on the rest of it: it was replaced.");
   list.Add("min_standing", o.min_standing_share, {0.0, 1.0}, "",
            "Share of that which must be there for the place to be taken.");
 }
@@ -85,7 +91,9 @@ ExpectedView LookAtPlace(std::span<const Eigen::Vector3f> samples, const Se3& T_
     } else if (readings.nearest_m > p.z() + tolerance) {
       ++view.num_through;
     } else if (std::abs(readings.here_m - p.z()) <= tolerance) {
-      ++view.num_standing;
+      const bool is_taken = depth.others != nullptr && !depth.others->empty() &&
+                            depth.others->at<std::uint8_t>(v, u) != 0;
+      ++(is_taken ? view.num_taken : view.num_standing);
     } else if (readings.here_m < p.z()) {
       ++view.num_hidden;
     } else {

@@ -23,6 +23,7 @@ struct ExpectedViewOptions {
   double max_depth_m = 4.5;         // farther readings say nothing
   double min_visible_share = 0.4;   // of the samples, before anything is concluded
   double min_through_share = 0.6;   // of the visible ones: one looks through its place
+  double min_taken_through = 0.25;  // the same, where another thing stands on the rest
   double min_standing_share = 0.5;  // of the visible ones: its surface stands there
 };
 void Describe(OptionList& list, ExpectedViewOptions& options);
@@ -33,6 +34,9 @@ struct DepthSampler {
   int step = 4;                       // full-size pixels per pixel of depth_mm
   const Camera* camera = nullptr;
   bool is_distorted = false;  // as recorded (keyframes keep it so), not undistorted
+  // Pixels of things of other kinds (CV_8UC1 of the same size, or null): what stands there is not
+  // what is looked for.
+  const cv::Mat* others = nullptr;
 };
 
 enum class PlaceVerdict : std::uint8_t {
@@ -46,12 +50,13 @@ struct ExpectedView {
   int num_samples = 0;
   int num_standing = 0;
   int num_through = 0;
+  int num_taken = 0;    // another thing stands there
   int num_hidden = 0;   // behind something nearer
   int num_unclear = 0;  // beside an edge, or no depth
   int num_outside = 0;  // of the picture, or too far
   PlaceVerdict verdict = PlaceVerdict::kUnobserved;
 
-  int num_visible() const { return num_standing + num_through; }
+  int num_visible() const { return num_standing + num_through + num_taken; }
   double through_share() const {
     return num_visible() == 0 ? 0.0 : static_cast<double>(num_through) / num_visible();
   }

@@ -88,13 +88,25 @@ const ObjectSighting* ObjectWatch::FindSighting(const MapObject& object,
   return nearest;
 }
 
+// What things of other kinds cover; empty if nothing.
+cv::Mat ObjectWatch::OthersThan(int class_id, const WatchedFrame& frame) const {
+  cv::Mat others;
+  for (const ObjectSighting& sighting : frame.sightings) {
+    if (classes_.AreAlike(sighting.class_id, class_id)) continue;
+    others = others.empty() ? sighting.region.mask : cv::Mat(others | sighting.region.mask);
+  }
+  return others;
+}
+
 void ObjectWatch::LookAt(const MapObject& object, const WatchedFrame& frame, const MapView& map) {
   const Se3 T_world_object = map.T_world_object(object);
   const Se3 T_camera_object = frame.T_world_camera.Inverse() * T_world_object;
   const Eigen::Vector3d centroid = T_camera_object * object.centroid;
   if (centroid.z() < 0.1 || centroid.z() > options_.view.max_depth_m) return;
 
-  const DepthSampler sampler{&frame.view->depth_mm, frame.view->step, &frame.view->camera, false};
+  const cv::Mat others = OthersThan(object.class_id, frame);
+  const DepthSampler sampler{&frame.view->depth_mm, frame.view->step, &frame.view->camera, false,
+                             &others};
   const double pose_sigma_m =
       options_.pose_sigma_m / std::sqrt(static_cast<double>(std::max(1, frame.num_inliers)));
   const ExpectedView expected =

@@ -69,6 +69,7 @@ class ObjectWatch {
   void LookAt(const MapObject& object, const WatchedFrame& frame, const MapView& map);
   const ObjectSighting* FindSighting(const MapObject& object, const Eigen::Vector3d& centroid_world,
                                      const WatchedFrame& frame) const;
+  cv::Mat OthersThan(int class_id, const WatchedFrame& frame) const;
   void LookForNew(const WatchedFrame& frame, const MapView& map);
 
   const ObjectWatchOptions options_;
