@@ -5,7 +5,6 @@
 #include "cslam/assets/procedural_props.h"
 #include "cslam/dataset/sequence_writer.h"
 #include "cslam/util/options.h"
-#include "cslam/util/stopwatch.h"
 
 #include <fmt/format.h>
 #include <opencv2/core/utility.hpp>
@@ -208,16 +207,14 @@ int Render(const Task& task, const RenderArguments& arguments, const AssetStatus
 
 RenderEstimate Estimate(const Task& task, const RenderArguments& arguments,
                         const AssetStatus& assets) {
-  constexpr int kNumTimed = 3;
+  constexpr int kNumWeighed = 2;
   const Stage stage{*assets.props, assets.folder ? &*assets.folder : nullptr};
   const Rendering rendering = Describe(task, arguments, stage);
   RenderEstimate estimate;
   estimate.num_frames = rendering.sequence.size();
   PrepareSequenceFolder(task.folder, rendering.record, ExistingFolder::kResume);
-  const int count = std::min(kNumTimed, estimate.num_frames);
-  const Stopwatch watch;
-  const double frame_bytes = MeasureFrameBytes(rendering.sequence, task.folder, count);
-  const double frame_s = 1e-3 * watch.ElapsedMs() / count;
+  const double frame_bytes = MeasureFrameBytes(rendering.sequence, task.folder, kNumWeighed);
+  const double frame_s = MeasureFrameSeconds(rendering.sequence, task.folder);
   estimate.bytes = kOtherBytes + estimate.num_frames * frame_bytes;
   estimate.seconds =
       estimate.num_frames * frame_s / (arguments.jobs > 0 ? arguments.jobs : NumCores());

@@ -7,6 +7,7 @@
 #include "cslam/io/image_codec.h"
 #include "cslam/io/instance_image.h"
 #include "cslam/util/check.h"
+#include "cslam/util/stopwatch.h"
 
 #include <opencv2/core/mat.hpp>
 
@@ -151,6 +152,14 @@ double MeasureFrameBytes(const SimulatedSequence& sequence, const std::filesyste
     bytes += FrameBytes(folder, stamp);
   }
   return bytes / num_samples;
+}
+
+double MeasureFrameSeconds(const SimulatedSequence& sequence, const std::filesystem::path& folder) {
+  const int i = sequence.size() / 2;
+  WriteFrame(sequence, folder, std::max(0, i - 1));
+  const Stopwatch watch;
+  WriteFrame(sequence, folder, i);
+  return 1e-3 * watch.Elapsed().cpu_ms;
 }
 
 WriteOutcome WriteSequence(const SimulatedSequence& sequence, const std::filesystem::path& folder,

@@ -38,6 +38,10 @@ WriteOutcome WriteSequence(const SimulatedSequence& sequence, const RenderRecord
 double MeasureFrameBytes(const SimulatedSequence& sequence, const std::filesystem::path& folder,
                          int count);
 
+// Time of one core for a frame, written to the disk, in s: that of one in the middle whose scene
+// has been made for the one before. Renders both into folder, as MeasureFrameBytes() does.
+double MeasureFrameSeconds(const SimulatedSequence& sequence, const std::filesystem::path& folder);
+
 // WriteSequence() for a sequence of no name.
 WriteOutcome WriteSequence(const SimulatedSequence& sequence, const std::filesystem::path& folder,
                            const WriteSequenceOptions& options);

@@ -230,11 +230,12 @@ TEST(MeasureFrameBytes, RendersAFewFramesThatTheSequenceThenKeeps) {
   PrepareSequenceFolder(folder / "out", DescribeSequence(sequence, "simulated"),
                         ExistingFolder::kRefuse);
   EXPECT_EQ(MeasureFrameBytes(sequence, folder / "out", 2), bytes);
+  EXPECT_GT(MeasureFrameSeconds(sequence, folder / "out"), 0.0);
   std::vector<int> done;
   WriteSequence(
       sequence, folder / "out",
       {.existing = ExistingFolder::kResume, .progress = [&](int i, int) { done.push_back(i); }});
-  EXPECT_EQ(done.front(), 2);
+  EXPECT_EQ(done.front(), 3);
   EXPECT_EQ(AllFiles(folder / "out"), AllFiles(folder / "whole"));
 }
 
