@@ -42,14 +42,25 @@ double UnionSizeM(const OrientedBox& box, std::span<const Eigen::Vector3f> point
   return largest;
 }
 
-// Whether the object's surface stands in this picture, but not where the sighting is.
-bool StandsElsewhere(const MapObject& object, const Se3& T_camera_object,
-                     const ObjectSighting& sighting, const DepthView& view,
-                     const ExpectedViewOptions& options) {
-  constexpr double kMinVisible = 0.3;
-  constexpr double kMaxInside = 0.2;
+// Of an object's surface, what is in this picture and stands where it is expected.
+struct StandingSamples {
+  int all = 0;
   int standing = 0;
-  int inside = 0;
+  int inside = 0;  // of these, in the sighting's region
+
+  // It is in the picture, but elsewhere.
+  bool IsElsewhere() const {
+    constexpr double kMinVisible = 0.3;
+    constexpr double kMaxInside = 0.2;
+    return standing >= kMinVisible * all && inside < kMaxInside * standing;
+  }
+};
+
+StandingSamples CountStanding(const MapObject& object, const Se3& T_camera_object,
+                              const ObjectSighting& sighting, const DepthView& view,
+                              const ExpectedViewOptions& options) {
+  StandingSamples count;
+  count.all = static_cast<int>(object.surface->samples.size());
   for (const Eigen::Vector3f& sample : object.surface->samples) {
     const Eigen::Vector3d p = T_camera_object * sample.cast<double>();
     if (p.z() < 0.1) continue;
@@ -60,11 +71,10 @@ bool StandsElsewhere(const MapObject& object, const Se3& T_camera_object,
     const double z = static_cast<double>(view.DepthM(u, v));
     const double tolerance = options.tolerance_m + options.tolerance_per_m2 * p.z() * p.z();
     if (z <= 0.0 || std::abs(z - p.z()) > tolerance) continue;
-    ++standing;
-    inside += sighting.region.mask.at<std::uint8_t>(v, u) != 0 ? 1 : 0;
+    ++count.standing;
+    count.inside += sighting.region.mask.at<std::uint8_t>(v, u) != 0 ? 1 : 0;
   }
-  const auto num_samples = static_cast<double>(object.surface->samples.size());
-  return standing >= kMinVisible * num_samples && inside < kMaxInside * standing;
+  return count;
 }
 
 struct Likeness {
@@ -84,13 +94,21 @@ Likeness Compare(const MapView& map, const MapObject& object, const PlacedSighti
   const auto points = Transformed(sighting.points_camera, T_camera_object.Inverse());
   const double overlap = Overlap(*object.surface, points, ReachM(*object.surface));
   const double nearness = std::max(0.0, 1.0 - distance_m / limit_m);
+  const StandingSamples standing =
+      CountStanding(object, T_camera_object, *sighting.sighting, view, options.view);
+  if (!classes.AreAlike(object.class_id, sighting.sighting->class_id)) {
+    // One thing that the detector takes now for this, now for that: the very same surface.
+    const bool is_same = overlap >= options.same_surface && standing.standing > 0 &&
+                         standing.inside >= options.same_surface * standing.standing;
+    return {is_same ? 0.5 * overlap : 0.0, true};
+  }
   if (overlap >= options.min_overlap) return {overlap + 0.3 * nearness, true};
   if (distance_m > limit_m || object.state == ObjectState::kAbsent) return {};
   const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false};
   const ExpectedView expected =
       LookAtPlace(object.surface->samples, T_camera_object, sampler, 0.0, options.view);
   if (expected.verdict == PlaceVerdict::kLookedThrough) return {};
-  if (StandsElsewhere(object, T_camera_object, *sighting.sighting, view, options.view)) return {};
+  if (standing.IsElsewhere()) return {};
   if (UnionSizeM(object.box, points) > options.max_union * limit_m) return {};
   return {overlap + 0.3 * nearness + 1e-3, false};
 }
@@ -131,7 +149,6 @@ std::vector<std::optional<ObjectId>> AssociateSightings(const MapView& map, MapI
     const MapObject& object = *map.FindObject(id);
     if (object.map != map_id || !object.surface) continue;
     for (std::size_t i = 0; i < sightings.size(); ++i) {
-      if (!classes.AreAlike(object.class_id, sightings[i].sighting->class_id)) continue;
       const Likeness likeness =
           Compare(map, object, sightings[i], view, T_world_camera, classes, options);
       if (likeness.score > 0.0) pairs.push_back({likeness, i, id});

@@ -22,6 +22,8 @@ void Describe(OptionList& list, MapObjectOptions& o) {
            "Cells in which a surface is kept, at most; small things have smaller ones.");
   list.Add("min_overlap", o.min_overlap, {0.0, 1.0}, "",
            "Share of a sighting's surface on an object's from which on they are one.");
+  list.Add("same_surface", o.same_surface, {0.0, 1.0}, "",
+           "Share of each on the other from which on they are one even if their classes differ.");
   list.Add("merge_overlap", o.merge_overlap, {0.0, 1.0}, "",
            "Share of the smaller of two objects' surfaces from which on they are one.");
   list.Add("max_union", o.max_union, {1.0, 10.0}, "",

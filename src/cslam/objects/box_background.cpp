@@ -117,8 +117,8 @@ void Describe(OptionList& list, BoxBackgroundOptions& o) {
            "Less of the box left over, and all of it counts: flat things.");
 }
 
-cv::Mat BackgroundOfBox(const DepthView& view, const cv::Rect& rect, const cv::Mat& excluded,
-                        const BoxBackgroundOptions& options) {
+BoxBackground FindBoxBackground(const DepthView& view, const cv::Rect& rect,
+                                const cv::Mat& excluded, const BoxBackgroundOptions& options) {
   constexpr int kMinRingPx = 3;
   if (!options.enabled) return {};
   const int margin = std::max(
@@ -141,8 +141,8 @@ cv::Mat BackgroundOfBox(const DepthView& view, const cv::Rect& rect, const cv::M
     num_left += is_on ? 0 : 1;
   }
   const auto min_left = options.min_foreground * static_cast<double>(num_in_box);
-  if (num_left < kMinReadings || static_cast<double>(num_left) < min_left) return {};
-  return background;
+  const bool is_flat = num_left < kMinReadings || static_cast<double>(num_left) < min_left;
+  return {is_flat ? cv::Mat() : background, is_flat};
 }
 
 }  // namespace cslam

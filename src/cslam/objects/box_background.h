@@ -8,10 +8,14 @@
 
 namespace cslam {
 
-// Pixels of rect (thumbnail) that lie on planes seen around it: CV_8UC1 of the view's size, 255 on
-// them. Empty if there are none, or if they would take all of the box: something flat, that lies on
-// a table or hangs on a wall. Pixels set in excluded take no part. Deterministic.
-cv::Mat BackgroundOfBox(const DepthView& view, const cv::Rect& rect, const cv::Mat& excluded,
-                        const BoxBackgroundOptions& options);
+struct BoxBackground {
+  cv::Mat mask;  // CV_8UC1 of the view's size, 255 on the planes; empty: nothing to leave out
+  bool is_flat = false;  // the planes hold all of the box: what lies on a table or hangs on a wall
+};
+
+// Which pixels of rect (thumbnail) lie on planes seen around it. Pixels set in excluded take no
+// part. Deterministic.
+BoxBackground FindBoxBackground(const DepthView& view, const cv::Rect& rect,
+                                const cv::Mat& excluded, const BoxBackgroundOptions& options);
 
 }  // namespace cslam

@@ -292,8 +292,9 @@ DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person, co
   if (view.empty() || box.empty()) return {};
   const cv::Rect rect = ThumbnailRect(view, box, 0.0);
   if (rect.empty()) return {};
-  cv::Mat background;
-  if (!is_person) background = BackgroundOfBox(view, rect, taken, options.background);
+  BoxBackground around;
+  if (!is_person) around = FindBoxBackground(view, rect, taken, options.background);
+  const cv::Mat& background = around.mask;
   const cv::Mat excluded = taken.empty()        ? background
                            : background.empty() ? taken
                                                 : cv::Mat(taken | background);
@@ -315,6 +316,7 @@ DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person, co
     if (!excluded.empty()) allowed.setTo(0, excluded);
     region = GrowRegion(view, seeds, allowed, reach_m, options.step_ratio);
   }
+  region.is_flat = around.is_flat;
   region.support = region.empty() ? 0.0 : 1.0;
   return region;
 }

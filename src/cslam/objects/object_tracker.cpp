@@ -112,6 +112,9 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
            "at rest: what was brought is likely to be taken away again.");
   list.Add("max_growth", o.max_growth, {1.0, 100.0}, "",
            "A carried region stops growing at so many times its detected size.");
+  list.Add("flat_score", o.flat_score, {0.0, 1.0}, "",
+           "What the score of a thing counts, as far as the map of objects goes, that does not "
+           "stand out from the wall or table: pictures pass for screens.");
   list.Group("region", o.region);
   list.Group("labels", o.labels);
   list.Group("filter", o.filter);
@@ -311,6 +314,7 @@ void ObjectTracker::Renew(std::optional<TrackId> id, const Detection& detection,
   object.score = detection.score;
   object.detected = frame.stamp;
   object.is_detected_now = frame.id == now_.id;
+  object.is_flat = region.is_flat;
   if (!region.empty()) object.reference_area_m2 = AreaM2(region);
   if (object.is_detected_now) {
     object.box = detection.box;
@@ -524,7 +528,7 @@ std::vector<ObjectSighting> ObjectTracker::Sightings() const {
     if (object.filter && object.filter->motion() == ObjectMotion::kMoving) continue;
     sightings.push_back({.track = object.id,
                          .class_id = object.class_id,
-                         .score = object.score,
+                         .score = object.score * (object.is_flat ? options_.flat_score : 1.0),
                          .box = object.box,
                          .region = object.region,
                          .first_detected = object.first_detected,

@@ -31,6 +31,7 @@ struct ObjectTrackerOptions {
   double first_bridge_s = 0.2;  // ... if it was detected only once
   int max_history_frames = 30;  // how old a frame may be whose detections come late
   double left_behind_m = 0.3;   // a nameless thing seen to go so far is not trusted while in view
+  double flat_score = 0.5;      // of the score of what does not stand out from what is around it
   double max_growth = 1.3;      // of a carried region's size, before it no longer grows
   RegionOptions region;
   LabelOptions labels;
@@ -105,6 +106,7 @@ class ObjectTracker {
     Stamp filtered;                  // the newest frame its filter took in
     double reference_area_m2 = 0.0;  // of the region as detected
     bool is_detected_now = false;
+    bool is_flat = false;                     // see DepthRegion
     std::optional<Eigen::Vector3d> found_at;  // world; of a nameless thing
     bool has_travelled = false;               // a nameless thing that was seen to go a long way
     bool is_person() const { return class_id == kPersonClass; }
