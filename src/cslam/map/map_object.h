@@ -28,7 +28,14 @@ enum class ObjectState : std::uint8_t {
 const char* ToString(ObjectState state);
 
 // Why a belief changed.
-enum class BeliefCause : std::uint8_t { kCreated, kSeen, kMissed, kLookedThrough, kMerged, kDisplaced };
+enum class BeliefCause : std::uint8_t {
+  kCreated,
+  kSeen,
+  kMissed,
+  kLookedThrough,
+  kMerged,
+  kDisplaced
+};
 const char* ToString(BeliefCause cause);
 
 struct BeliefStep {

@@ -298,7 +298,7 @@ TEST_F(TrackerTest, SaysHowLongItsStepsTook) {
     stages.emplace_back(time.stage);
     EXPECT_GE(time.ms, 0.0);
   }
-  EXPECT_THAT(stages, testing::ElementsAre("extract", "label", "predict", "local_map"));
+  EXPECT_THAT(stages, testing::ElementsAre("extract", "label", "predict", "local_map", "objects"));
 }
 
 }  // namespace
