@@ -48,10 +48,10 @@ inline constexpr MapTable kObjectsTable{
     " colours BLOB, voxel_m, voxels BLOB, samples BLOB,"
     " first_box_x_min, first_box_y_min, first_box_x_max, first_box_y_max,"
     " box_x_min, box_y_min, box_x_max, box_y_max, track INTEGER,"
-    " first_keyframe INTEGER, last_keyframe INTEGER,"
+    " first_keyframe INTEGER, arrived_keyframe INTEGER, last_keyframe INTEGER,"
     " first_seen_ns INTEGER, last_seen_ns INTEGER, absent_since_ns INTEGER,"
     " first_session INTEGER, last_session INTEGER, num_sightings INTEGER, history BLOB",
-    44};
+    45};
 inline constexpr MapTable kChangesTable{
     "changes",
     "id INTEGER PRIMARY KEY, kind INTEGER, object INTEGER, new_object INTEGER,"

@@ -118,7 +118,7 @@ std::vector<BeliefStep> UnpackHistory(std::string_view bytes) {
     sample.stamp = Stamp{reader.Next<std::int64_t>()};
     sample.belief = NextFinite(reader);
     const auto cause = reader.Next<std::uint8_t>();
-    if (cause > static_cast<std::uint8_t>(BeliefCause::kMerged)) {
+    if (cause > static_cast<std::uint8_t>(BeliefCause::kDisplaced)) {
       throw Error("a belief changed for reason {}, which is none", cause);
     }
     sample.cause = static_cast<BeliefCause>(cause);
@@ -185,6 +185,7 @@ void WriteSightings(TableWriter& row, const MapObject& object) {
   WriteBox(row, object.current_box);
   WriteId(row, object.track);
   WriteId(row, object.first_keyframe);
+  WriteId(row, object.arrived_keyframe);
   WriteId(row, object.last_keyframe);
   WriteStamp(row, object.first_seen);
   WriteStamp(row, object.last_seen);
@@ -199,6 +200,7 @@ void ReadSightings(TableReader& row, MapObject& object) {
   object.current_box = ReadBox(row);
   object.track = ReadId<TrackId>(row);
   object.first_keyframe = ReadId<KeyframeId>(row);
+  object.arrived_keyframe = ReadId<KeyframeId>(row);
   object.last_keyframe = ReadId<KeyframeId>(row);
   object.first_seen = Stamp{row.Int()};
   object.last_seen = Stamp{row.Int()};

@@ -85,6 +85,7 @@ inline MapObject MakeObject(KeyframeId reference, MapId map) {
   object.current_box = {2.5, 3.0, 31.0, 41.0};
   object.track = TrackId(4);
   object.first_keyframe = KeyframeId(0);
+  object.arrived_keyframe = KeyframeId(0);
   object.last_keyframe = reference;
   object.first_seen = Stamp{1'000};
   object.last_seen = Stamp{2'000};
@@ -205,10 +206,11 @@ inline bool AreEqual(const MapObject& a, const MapObject& b) {
       });
   const bool has_equal_sightings =
       a.first_box == b.first_box && a.current_box == b.current_box && a.track == b.track &&
-      a.first_keyframe == b.first_keyframe && a.last_keyframe == b.last_keyframe &&
-      a.first_seen == b.first_seen && a.last_seen == b.last_seen &&
-      a.absent_since == b.absent_since && a.first_session == b.first_session &&
-      a.last_session == b.last_session && a.num_sightings == b.num_sightings;
+      a.first_keyframe == b.first_keyframe && a.arrived_keyframe == b.arrived_keyframe &&
+      a.last_keyframe == b.last_keyframe && a.first_seen == b.first_seen &&
+      a.last_seen == b.last_seen && a.absent_since == b.absent_since &&
+      a.first_session == b.first_session && a.last_session == b.last_session &&
+      a.num_sightings == b.num_sightings;
   return a.id == b.id && a.map == b.map && a.state == b.state && a.merged_into == b.merged_into &&
          a.log_odds == b.log_odds && a.is_active == b.is_active && a.reference == b.reference &&
          a.history == b.history && has_equal_look && has_equal_sightings;

@@ -106,6 +106,10 @@ void CheckObject(const MapContents& contents, std::size_t index) {
     throw Error("object {} continues as one that never was", index);
   }
   if (!object.IsAlive()) return;
+  if (!object.first_keyframe.valid() || !object.arrived_keyframe.valid() ||
+      !object.last_keyframe.valid()) {
+    throw Error("nobody ever saw object {}", index);
+  }
   if (!object.map.valid() || object.reference.index() >= contents.keyframes.size()) {
     throw Error("object {} belongs to nothing", index);
   }
