@@ -10,7 +10,22 @@
 namespace cslam {
 namespace {
 
-constexpr std::size_t kMaxPoints = 300;  // of a sighting
+constexpr std::size_t kMaxPoints = 300;    // of a sighting
+constexpr std::size_t kMaxSightings = 64;  // of a keyframe: bounds what false detections cost
+
+// Those that may become objects of the map; of too many the surest.
+std::vector<const ObjectSighting*> Candidates(std::span<const ObjectSighting> sightings,
+                                              const ObjectClasses& classes) {
+  std::vector<const ObjectSighting*> candidates;
+  for (const ObjectSighting& sighting : sightings) {
+    if (classes.IsMapped(sighting.class_id)) candidates.push_back(&sighting);
+  }
+  if (candidates.size() <= kMaxSightings) return candidates;
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto* a, const auto* b) { return a->score > b->score; });
+  candidates.resize(kMaxSightings);
+  return candidates;
+}
 
 double ReachM(const ObjectSurface& surface) {
   return std::max(0.04, 1.5 * surface.voxel_m);
@@ -91,17 +106,17 @@ Likeness Compare(const MapView& map, const MapObject& object, const PlacedSighti
       std::max(classes.DistanceM(object.class_id), classes.DistanceM(sighting.sighting->class_id));
   if (distance_m > 2.0 * limit_m) return {};
   const Se3 T_camera_object = T_world_camera.Inverse() * T_world_object;
-  const auto points = Transformed(sighting.points_camera, T_camera_object.Inverse());
-  const double overlap = Overlap(*object.surface, points, ReachM(*object.surface));
-  const double nearness = std::max(0.0, 1.0 - distance_m / limit_m);
   const StandingSamples standing =
       CountStanding(object, T_camera_object, *sighting.sighting, view, options.view);
-  if (!classes.AreAlike(object.class_id, sighting.sighting->class_id)) {
-    // One thing that the detector takes now for this, now for that: the very same surface.
-    const bool is_same = overlap >= options.same_surface && standing.standing > 0 &&
-                         standing.inside >= options.same_surface * standing.standing;
-    return {is_same ? 0.5 * overlap : 0.0, true};
-  }
+  const bool is_alike = classes.AreAlike(object.class_id, sighting.sighting->class_id);
+  // One thing that the detector takes now for this, now for that: the very same surface.
+  const bool may_be_same =
+      standing.standing > 0 && standing.inside >= options.same_surface * standing.standing;
+  if (!is_alike && !may_be_same) return {};
+  const auto points = Transformed(sighting.points_camera, T_camera_object.Inverse());
+  const double overlap = Overlap(*object.surface, points, ReachM(*object.surface));
+  if (!is_alike) return {overlap >= options.same_surface ? 0.5 * overlap : 0.0, true};
+  const double nearness = std::max(0.0, 1.0 - distance_m / limit_m);
   if (overlap >= options.min_overlap) return {overlap + 0.3 * nearness, true};
   if (distance_m > limit_m || object.state == ObjectState::kAbsent) return {};
   const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false};
@@ -120,9 +135,8 @@ std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sight
                                            const ObjectClasses& classes,
                                            const MapObjectOptions& options) {
   std::vector<PlacedSighting> placed;
-  for (const ObjectSighting& sighting : sightings) {
-    if (!classes.IsMapped(sighting.class_id)) continue;
-    PlacedSighting one{&sighting, PointsOfRegion(view, sighting.region, kMaxPoints), {}};
+  for (const ObjectSighting* sighting : Candidates(sightings, classes)) {
+    PlacedSighting one{sighting, PointsOfRegion(view, sighting->region, kMaxPoints), {}};
     if (static_cast<int>(one.points_camera.size()) < options.min_voxels) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3f& p : one.points_camera)

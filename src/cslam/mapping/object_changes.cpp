@@ -22,6 +22,20 @@ double Confidence(const MapView& map, const MapChange& change) {
   return confidence;
 }
 
+double MiddleSideM(const MapObject& object) {
+  Eigen::Vector3d size = object.box.size_m;
+  std::sort(size.begin(), size.end());
+  return std::max(size[1], 0.01);
+}
+
+// Seen from one side only a box is thin: it is taken to be as deep as it is wide.
+bool StandsInside(const MapView& map, const MapObject& object, const MapObject& around) {
+  const Eigen::Vector3d p = map.T_world_object(around).Inverse() * map.CentroidOf(object);
+  const Eigen::Vector3d p_box = around.box.rotation.conjugate() * (p - around.box.center);
+  const double middle_m = MiddleSideM(around);
+  return (p_box.cwiseAbs().array() <= 0.5 * around.box.size_m.array().max(middle_m)).all();
+}
+
 bool IsSingle(const MapChange& change, MapChangeKind kind) {
   return change.kind == kind && !change.new_object.valid();
 }
@@ -83,12 +97,7 @@ ChangeList::ChangeList(const Camera& camera, const MapObjectOptions& options,
 bool ChangeList::LooksLike(const MapObject& a, const MapObject& b) const {
   if (!classes_.AreAlike(a.class_id, b.class_id)) return false;
   if (ColourLikeness(a.colours, b.colours) < options_.min_likeness) return false;
-  const auto middle_side = [](const MapObject& object) {
-    Eigen::Vector3d size = object.box.size_m;
-    std::sort(size.begin(), size.end());
-    return std::max(size[1], 0.01);
-  };
-  const double ratio = middle_side(a) / middle_side(b);
+  const double ratio = MiddleSideM(a) / MiddleSideM(b);
   return ratio <= options_.max_size_ratio && ratio >= 1.0 / options_.max_size_ratio;
 }
 
@@ -193,7 +202,7 @@ void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t sessi
     AddJoined(map, change, [&](MapChange& a, const MapChange& b) { return Join(map, a, b); });
     return;
   }
-  // Nobody looked there before: it came only if something like it has gone.
+  // Nobody looked there before: it came only if something like it has gone, or what stood there.
   std::vector<MapChange> changes = map.changes();
   for (std::size_t i = changes.size(); i-- > 0;) {
     const MapObject* gone = map.FindObject(changes[i].object);
@@ -202,7 +211,8 @@ void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t sessi
       continue;
     }
     MapChange joined = change;
-    if (!Join(map, joined, changes[i]) || joined.kind != MapChangeKind::kMoved) continue;
+    if (!Join(map, joined, changes[i])) continue;
+    if (joined.kind == MapChangeKind::kReplaced && !StandsInside(map, object, *gone)) continue;
     changes[i] = joined;
     map.SetChanges(std::move(changes));
     return;

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/mapping/object_changes.h"
+
+#include "cslam/mapping/test_objects.h"
+#include "cslam/semantics/coco.h"
+
+#include <gtest/gtest.h>
+
+namespace cslam {
+namespace {
+
+constexpr int kBearClass = 77;
+const Stamp kNow{9'000'000'000LL};
+
+// Twenty keyframes at the origin that look at an empty room's wall, 3 m away; objects by hand.
+class ChangeListTest : public testing::Test {
+ protected:
+  ChangeListTest() : map_(test::kRoomScales), list_(camera_, options_, classes_) {
+    static const auto kData = test::LookAtRoom(test::TestRoom{}, camera_, Se3(), 0).data;
+    for (std::uint32_t i = 0; i < 20; ++i) {
+      Keyframe keyframe;
+      keyframe.id = KeyframeId(i);
+      keyframe.map = MapId(0);
+      if (i > 0) keyframe.parent = KeyframeId(0);
+      keyframe.data = kData;
+      map_.AddKeyframe(std::move(keyframe));
+    }
+  }
+
+  // Seen from keyframe first to last; its front is at z - 0.25.
+  ObjectId AddObject(const Eigen::Vector3d& at, std::uint32_t first, std::uint32_t last,
+                     int class_id = kChairClass, float hue = 2.0F, double size_m = 0.5) {
+    MapObject object;
+    object.map = MapId(0);
+    object.class_id = class_id;
+    object.reference = KeyframeId(0);
+    object.state = ObjectState::kPresent;
+    object.log_odds = 3.0;
+    object.centroid = object.box.center = at;
+    object.box.size_m = Eigen::Vector3d::Constant(size_m);
+    object.colours = test::ColoursWithHue(hue);
+    object.first_keyframe = object.arrived_keyframe = KeyframeId(first);
+    object.last_keyframe = KeyframeId(last);
+    object.first_seen = Stamp{first * 1'000'000'000LL};
+    object.last_seen = Stamp{last * 1'000'000'000LL};
+    ObjectSurface surface;
+    for (int i = 0; i < 25; ++i) {
+      const Eigen::Vector3d offset(-0.2 + 0.1 * (i % 5), -0.2 + 0.1 * (i / 5), -0.25);
+      surface.samples.push_back((at + offset).cast<float>());
+    }
+    object.surface = std::make_shared<const ObjectSurface>(std::move(surface));
+    return map_.AddObject(std::move(object));
+  }
+  void Leave(ObjectId id, Stamp now = kNow) {
+    MapObject object = *map_.FindObject(id);
+    object.state = ObjectState::kAbsent;
+    object.log_odds = -3.0;
+    object.absent_since = now;
+    map_.SetObject(std::move(object));
+    list_.OnGone(map_, id, now, 3, session_);
+  }
+  void Arrive(ObjectId id) { list_.OnArrived(map_, id, kNow, session_); }
+  std::vector<MapChangeKind> Kinds() const {
+    std::vector<MapChangeKind> kinds;
+    for (const MapChange& change : map_.changes())
+      kinds.push_back(change.kind);
+    return kinds;
+  }
+
+  using Kind = MapChangeKind;
+  const Camera camera_ = test::RoomCamera();
+  const MapObjectOptions options_;
+  const ObjectClasses classes_{ObjectClassOptions{}};
+  std::uint32_t session_ = 0;
+  Map map_;
+  ChangeList list_;
+};
+
+const Eigen::Vector3d kHere(0.0, 0.0, 2.0);
+const Eigen::Vector3d kThere(0.9, 0.0, 2.2);
+
+TEST_F(ChangeListTest, LookBackCountsViewsOfAnEmptyPlace) {
+  const ObjectId chair = AddObject(kHere, 7, 9);
+  const ViewsBefore before = LookBack(map_, *map_.FindObject(chair), camera_, 0, options_.view);
+  EXPECT_EQ(before.num_through, 7);
+  EXPECT_EQ(before.num_standing, 0);
+  EXPECT_FALSE(before.is_between_sessions);
+}
+
+TEST_F(ChangeListTest, LookBackSeesThatSomethingStoodThereBefore) {
+  const ObjectId poster = AddObject({0.0, 0.0, 3.25}, 7, 9);  // its front is the wall
+  const ViewsBefore before = LookBack(map_, *map_.FindObject(poster), camera_, 0, options_.view);
+  EXPECT_EQ(before.num_through, 0);
+  EXPECT_EQ(before.num_standing, 7);
+}
+
+TEST_F(ChangeListTest, LookBackTellsSessionsApart) {
+  map_.StartSession();  // begins with keyframe 20
+  const ObjectId chair = AddObject(kHere, 20, 21);
+  const ViewsBefore before = LookBack(map_, *map_.FindObject(chair), camera_, 1, options_.view);
+  EXPECT_EQ(before.num_through, 20);
+  EXPECT_TRUE(before.is_between_sessions);
+}
+
+TEST_F(ChangeListTest, ToldAsAddedIfItsPlaceWasEmptyAndAsNothingIfNobodyLooked) {
+  Arrive(AddObject(kThere, 0, 9));
+  EXPECT_TRUE(map_.changes().empty()) << "it may always have been there";
+  Arrive(AddObject(kHere, 7, 9));
+  EXPECT_EQ(Kinds(), std::vector{Kind::kAdded});
+  EXPECT_EQ(map_.changes()[0].num_absent_views, 7);
+}
+
+TEST_F(ChangeListTest, OneViewOfAnEmptyPlaceIsTooFew) {
+  Arrive(AddObject(kHere, 1, 9));
+  EXPECT_TRUE(map_.changes().empty());
+}
+
+TEST_F(ChangeListTest, JoinsRemovalAndArrivalToAMoveInEitherOrder) {
+  const ObjectId old_one = AddObject(kHere, 0, 5);
+  const ObjectId new_one = AddObject(kThere, 8, 12);
+  Leave(old_one);
+  Arrive(new_one);
+  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  map_.SetChanges({});
+  Arrive(new_one);
+  Leave(old_one);
+  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  EXPECT_EQ(map_.changes()[0].object, old_one);
+  EXPECT_EQ(map_.changes()[0].new_object, new_one);
+  EXPECT_GT(map_.changes()[0].confidence, 0.8);
+}
+
+TEST_F(ChangeListTest, DoesNotTakeAnotherColourOrSizeForTheSameThing) {
+  const ObjectId old_one = AddObject(kHere, 0, 5);
+  Leave(old_one);
+  Arrive(AddObject(kThere, 8, 12, kChairClass, 6.0F));
+  Arrive(AddObject({-0.9, 0.0, 2.2}, 8, 12, kChairClass, 2.0F, 1.6));
+  EXPECT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kAdded, Kind::kAdded}));
+}
+
+TEST_F(ChangeListTest, DoesNotTakeWhatWasSeenAtTheSameTimeForTheSameThing) {
+  const ObjectId old_one = AddObject(kHere, 0, 10);
+  Arrive(AddObject(kThere, 8, 12));
+  Leave(old_one);
+  EXPECT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kRemoved}));
+}
+
+TEST_F(ChangeListTest, TellsAReplacementNearThePlaceOnly) {
+  Leave(AddObject(kHere, 0, 5));
+  Arrive(AddObject(kThere, 8, 12, kBearClass, 5.0F));
+  EXPECT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kAdded})) << "0.9 m away";
+  Arrive(AddObject(kHere, 8, 12, kBearClass, 5.0F));
+  EXPECT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kReplaced}));
+}
+
+TEST_F(ChangeListTest, TellsAReplacementByWhatTheOldThingHadHidden) {
+  Leave(AddObject(kHere, 0, 5));
+  // Its place was never seen empty, for it lies within the old one's.
+  Arrive(AddObject(kHere + Eigen::Vector3d(0.0, 0.1, 0.0), 1, 12, kBearClass, 5.0F, 0.2));
+  EXPECT_TRUE(map_.changes()[0].kind == Kind::kRemoved) << "both were seen at once";
+  map_.SetChanges({});
+  Leave(AddObject(kHere, 0, 0));
+  Arrive(AddObject(kHere + Eigen::Vector3d(0.0, 0.1, 0.0), 1, 12, kBearClass, 5.0F, 0.2));
+  EXPECT_EQ(Kinds(), std::vector{Kind::kReplaced});
+}
+
+TEST_F(ChangeListTest, PrefersAMoveToAReplacement) {
+  Leave(AddObject(kHere, 0, 5));
+  Leave(AddObject(kThere, 0, 5, kBearClass, 5.0F));
+  Arrive(AddObject(kHere, 8, 12, kBearClass, 5.0F));
+  EXPECT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kMoved}));
+  EXPECT_EQ(map_.changes()[1].object, ObjectId(1)) << "the bear";
+}
+
+TEST_F(ChangeListTest, DisplacedThingsAreReplacedOnceByEachNewOne) {
+  const ObjectId chair = AddObject(kHere, 0, 5);
+  const ObjectId cup = AddObject(kHere, 0, 5, 41, 1.0F, 0.1);
+  const ObjectId bear = AddObject(kHere, 8, 12, kBearClass, 5.0F);
+  Arrive(bear);
+  ASSERT_EQ(Kinds(), std::vector{Kind::kAdded});
+  list_.OnDisplaced(map_, chair, bear, kNow, 0);
+  EXPECT_EQ(Kinds(), std::vector{Kind::kReplaced});
+  list_.OnDisplaced(map_, cup, bear, kNow, 0);
+  EXPECT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kRemoved}));
+}
+
+TEST_F(ChangeListTest, GivesTheReplacementToTheLargerOfTwoThatAreGone) {
+  const ObjectId small = AddObject(kHere, 0, 5, 41, 1.0F, 0.1);
+  const ObjectId chair = AddObject(kHere, 0, 5);
+  Leave(small);
+  Arrive(AddObject(kHere, 8, 12, kBearClass, 5.0F));
+  ASSERT_EQ(Kinds(), std::vector{Kind::kReplaced});
+  Leave(chair);
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kReplaced}));
+  EXPECT_EQ(map_.changes()[0].object, small);
+  EXPECT_EQ(map_.changes()[1].object, chair);
+}
+
+TEST_F(ChangeListTest, ForgetsMovesOfAThingToItselfWhenTwoBecomeOne) {
+  const ObjectId old_one = AddObject(kHere, 0, 5);
+  const ObjectId new_one = AddObject(kThere, 8, 12);
+  Leave(old_one);
+  Arrive(new_one);
+  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  list_.OnMerged(map_, old_one, new_one);
+  EXPECT_TRUE(map_.changes().empty());
+}
+
+TEST_F(ChangeListTest, MarksRemovalsOfThingsOfEarlierSessions) {
+  session_ = 1;
+  Leave(AddObject(kHere, 0, 5));
+  EXPECT_TRUE(map_.changes()[0].is_between_sessions);
+}
+
+}  // namespace
+}  // namespace cslam
