@@ -403,16 +403,19 @@ void Tracker::RefineWithLocalMap(CurrentFrame& current) {
 }
 
 // Points of objects that are not believed in have no say while the room suffices; otherwise those
-// on things that rest at present do. Returns those without a say.
+// on things that rest at present do, as a minority unless there is hardly any room. Returns those
+// without a say.
 FrameMatches Tracker::SetHeldBackAside(const FrameFeatures& features, FrameMatches& matches) const {
   FrameMatches held_back = TakeHeldBack(matches);
-  if (CountMatches(matches, Landmark::Kind::kMapPoint) >= options_.use_held_back_below) {
-    return held_back;
-  }
-  for (std::size_t i = 0; i < matches.size(); ++i) {
+  const int num_room = CountMatches(matches, Landmark::Kind::kMapPoint);
+  if (num_room >= options_.use_held_back_below) return held_back;
+  int num_left =
+      num_room < options_.min_room_matches ? static_cast<int>(matches.size()) : num_room / 2;
+  for (std::size_t i = 0; i < matches.size() && num_left > 0; ++i) {
     if (held_back[i].kind != Landmark::Kind::kNone &&
         features.semantics[i].label == KeypointLabel::kMovable) {
       matches[i] = std::exchange(held_back[i], Landmark{});
+      --num_left;
     }
   }
   return held_back;

@@ -81,7 +81,9 @@ void Describe(OptionList& list, TrackerOptions& o) {
            "picture brings new points that move alike.");
   list.Add("use_held_back_below", o.use_held_back_below, {0, 10'000}, "matches",
            "With fewer matched points of the room, those of objects that rest but are not believed "
-           "in yet count for the pose as well: a room full of furniture must not get lost.");
+           "in yet count for the pose as well, half as many as the room's at most ...");
+  list.Add("min_room_matches", o.min_room_matches, {0, 10'000}, "matches",
+           "... or all of them, with fewer than this: a room full of furniture must not get lost.");
   list.Add("recently_lost_time", o.recently_lost_s, {0.0, 1000.0}, "s",
            "How long the map is searched for lost frames, or for the first ones of a run that goes "
            "on in a given map, before a new map may start.");
