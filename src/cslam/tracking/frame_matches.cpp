@@ -7,6 +7,10 @@
 
 namespace cslam {
 
+bool IsNear(const Keypoint& keypoint, const DepthOptions& options) {
+  return keypoint.HasDepth() && static_cast<double>(keypoint.depth_m) < options.near_depth_m();
+}
+
 int CountMatches(const FrameMatches& matches, Landmark::Kind kind) {
   return static_cast<int>(std::count_if(matches.begin(), matches.end(),
                                         [&](const Landmark& m) { return m.kind == kind; }));

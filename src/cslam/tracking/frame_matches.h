@@ -26,6 +26,9 @@ struct Landmark {
 
 using FrameMatches = std::vector<Landmark>;  // one per keypoint
 
+// Whether the keypoint's depth alone makes a landmark of it.
+bool IsNear(const Keypoint& keypoint, const DepthOptions& options);
+
 int CountMatches(const FrameMatches& matches, Landmark::Kind kind);
 
 // Takes those of held-back points out of matches. Returns them, kNone elsewhere.

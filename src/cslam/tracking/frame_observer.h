@@ -4,6 +4,7 @@
 
 #include "cslam/messages/messages.h"
 #include "cslam/objects/object_tracker.h"
+#include "cslam/tracking/pose_history.h"
 #include "cslam/tracking/tracker_options.h"
 #include "cslam/vision/orb.h"
 
@@ -12,12 +13,6 @@
 #include <vector>
 
 namespace cslam {
-
-// Where the camera was in the last tracked frame, and where it probably is now.
-struct PosePrediction {
-  Se3 T_world_last;
-  Se3 T_world_camera;
-};
 
 // Turns a frame into the features that the room can be recognised by: extracts, measures, labels,
 // leaves out what belongs to people and moving things, and takes more from the background where

@@ -8,6 +8,12 @@
 
 namespace cslam {
 
+// Where the camera was in the last tracked frame, and where it probably is now.
+struct PosePrediction {
+  Se3 T_world_last;
+  Se3 T_world_camera;
+};
+
 // The tracker's anchor in the map: its last pose relative to a keyframe, and the keyframes it has
 // proposed that no snapshot shows yet.
 class PoseHistory {

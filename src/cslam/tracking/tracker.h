@@ -4,10 +4,10 @@
 
 #include "cslam/messages/messages.h"
 #include "cslam/messages/place_hint.h"
-#include "cslam/tracking/frame_matches.h"
 #include "cslam/tracking/frame_observer.h"
-#include "cslam/tracking/local_map.h"
 #include "cslam/tracking/pose_history.h"
+#include "cslam/tracking/pose_search.h"
+#include "cslam/tracking/sighting_counter.h"
 #include "cslam/tracking/tracker_options.h"
 
 #include <memory>
@@ -52,14 +52,12 @@ class Tracker {
   void Observe(const RgbdFrame& frame, const Detections* detections, CurrentFrame& current);
   void LeaveOutUnknown(CurrentFrame& current);
   void TrackFrame(CurrentFrame& current);
-  bool EstimateFromMotion(CurrentFrame& current);
-  bool EstimateFromReference(CurrentFrame& current);
-  bool EstimateFromPlace(CurrentFrame& current, const PlaceHint& hint);
+  bool FindFirstPose(CurrentFrame& current) const;
+  bool Adopt(std::optional<PoseEstimate> found, CurrentFrame& current) const;
   void Relocalise(CurrentFrame& current, const PlaceHint& hint);
   void FollowMerges();
   void EnterMap(MapId map);
-  void RefineWithLocalMap(CurrentFrame& current);
-  FrameMatches SetHeldBackAside(const FrameFeatures& features, FrameMatches& matches) const;
+  void RefineWithLocalMap(CurrentFrame& current) const;
   void WatchObjects(const CurrentFrame& current, const Detections* detections);
   KeyframeObjects TakeObjects(const CurrentFrame& current);
   void CountSightings(const CurrentFrame& current);
@@ -71,12 +69,11 @@ class Tracker {
   KeyframeProposal Propose(CurrentFrame& current, KeyframeReason reason);
   void Remember(const CurrentFrame& current);
   TrackerOutput Report(CurrentFrame& current);
-  std::vector<PointSightings> TakeSightings();
 
   const Camera camera_;
   const ImageBounds bounds_;
   const TrackerOptions options_;
-  const MeasurementModel model_;
+  const PoseSearch search_;
   FrameObserver observer_;
   ObjectWatch watch_;
 
@@ -92,14 +89,9 @@ class Tracker {
   int frames_since_keyframe_ = 0;
   PoseHistory history_;  // poses that follow the map's corrections
 
-  // The last tracked frame.
-  std::shared_ptr<const KeyframeData> last_data_;
-  std::vector<PointId> last_points_;
-  Stamp last_tracked_;
+  LastFrame last_;
   std::optional<Vector6> velocity_;  // tangent of T_previous_current per second
-
-  std::vector<PointSightings> sightings_;  // by point id
-  std::vector<PointId> sighted_;           // those with an entry
+  SightingCounter sightings_;        // since the last proposal
 };
 
 }  // namespace cslam
