@@ -2,124 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/objects/object_tracker.h"
 
-#include "cslam/util/options.h"
-
-#include <opencv2/imgproc.hpp>
+#include "cslam/objects/detection_regions.h"
+#include "cslam/objects/region_outline.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <tuple>
+#include <utility>
 
 namespace cslam {
-namespace {
-
-// Depth readings that a region must touch on the picture's border, or beside something nearer, to
-// count as cut off.
-bool IsClipped(const DepthRegion& region) {
-  constexpr int kMinTouching = 3;
-  int touching = 0;
-  const cv::Mat& mask = region.mask;
-  for (int u = 0; u < mask.cols; ++u) {
-    touching += mask.at<std::uint8_t>(0, u) != 0 ? 1 : 0;
-    touching += mask.at<std::uint8_t>(mask.rows - 1, u) != 0 ? 1 : 0;
-  }
-  for (int v = 0; v < mask.rows; ++v) {
-    touching += mask.at<std::uint8_t>(v, 0) != 0 ? 1 : 0;
-    touching += mask.at<std::uint8_t>(v, mask.cols - 1) != 0 ? 1 : 0;
-  }
-  return touching >= kMinTouching;
-}
-
-// Whether something clearly nearer stands right beside the region's pixels.
-bool IsCovered(const DepthRegion& region, const DepthView& view) {
-  constexpr float kNearerM = 0.25F;
-  constexpr double kMinShare = 0.06;  // of the region's outline
-  int outline = 0;
-  int covered = 0;
-  for (int v = 1; v + 1 < region.mask.rows; ++v) {
-    for (int u = 1; u + 1 < region.mask.cols; ++u) {
-      if (region.mask.at<std::uint8_t>(v, u) == 0) continue;
-      const float own = view.DepthM(u, v) > 0.0F ? view.DepthM(u, v) : region.median_m;
-      for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-        if (region.mask.at<std::uint8_t>(v + dv, u + du) != 0) continue;
-        ++outline;
-        const float other = view.DepthM(u + du, v + dv);
-        if (other > 0.0F && other < own - kNearerM) ++covered;
-      }
-    }
-  }
-  return outline > 0 && covered > kMinShare * outline;
-}
-
-// Whether most of a lies within b, which is clearly larger: it sits on it or stands before it.
-bool SitsOn(const Box& a, const Box& b) {
-  constexpr double kInside = 0.7;
-  constexpr double kSmaller = 0.6;
-  return a.area() < kSmaller * b.area() && Intersect(a, b).area() > kInside * a.area();
-}
-
-// People first, then what sits on something before what it sits on, then nearer things, so that
-// those behind leave out what is covered: the box of a chair behind somebody is full of that
-// person, and that of a chair with a bear has the bear in the middle.
-std::vector<std::size_t> FrontToBack(const std::vector<Detection>& detections,
-                                     const std::vector<DepthRegion>& regions) {
-  std::vector<std::size_t> left(detections.size());
-  for (std::size_t i = 0; i < left.size(); ++i)
-    left[i] = i;
-  const auto rank = [&](std::size_t i) {
-    const bool is_person = detections[i].class_id == kPersonClass;
-    const bool carries = std::any_of(left.begin(), left.end(), [&](std::size_t j) {
-      return j != i && SitsOn(detections[j].box, detections[i].box);
-    });
-    const float z = regions[i].empty() ? std::numeric_limits<float>::max() : regions[i].median_m;
-    return std::tuple(!is_person, carries, z, i);
-  };
-  std::vector<std::size_t> order;
-  while (!left.empty()) {
-    const auto next = std::min_element(
-        left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-    order.push_back(*next);
-    left.erase(next);
-  }
-  return order;
-}
-
-}  // namespace
-
-void Describe(OptionList& list, ObjectTrackerOptions& o) {
-  list.Add("enabled", o.enabled, "Leave out people and moving things; off: all is background.");
-  list.Add("label_movable", o.label_movable,
-           "Hold back the keypoints of things that may move, not those of people alone.");
-  list.Add(
-      "hold_back_new", o.hold_back_new,
-      "Hold back movable things until they are known to rest (the paper), instead of from when "
-      "they are seen to move.");
-  list.Add("filter_motion", o.filter_motion,
-           "Use movable things again once their filter finds them static.");
-  list.Add("min_iou", o.min_iou, {0.01, 1.0}, "",
-           "Overlap of boxes from which on a detection is taken for a known object.");
-  list.Add("bridge", o.bridge_s, {0.0, 60.0}, "s",
-           "How long an object is carried on by its depth while the detector misses it.");
-  list.Add("first_bridge", o.first_bridge_s, {0.0, 60.0}, "s",
-           "The same for what was detected once; it grows with the time it has been seen, since "
-           "detectors of people are set to find too many rather than too few.");
-  list.Add("max_history", o.max_history_frames, {1, 1000}, "frames",
-           "How late detections may come.");
-  list.Add("left_behind", o.left_behind_m, {0.0, 100.0}, "m",
-           "A nameless thing that was seen to move so far is left out while it stays in view, even "
-           "at rest: what was brought is likely to be taken away again.");
-  list.Add("max_growth", o.max_growth, {1.0, 100.0}, "",
-           "A carried region stops growing at so many times its detected size.");
-  list.Add("flat_score", o.flat_score, {0.0, 1.0}, "",
-           "What the score of a thing counts, as far as the map of objects goes, that does not "
-           "stand out from the wall or table: pictures pass for screens.");
-  list.Group("region", o.region);
-  list.Group("labels", o.labels);
-  list.Group("filter", o.filter);
-  list.Group("unknown", o.unknown);
-}
 
 ObjectTracker::ObjectTracker(const Camera& camera, const ObjectTrackerOptions& options)
     : camera_(camera), views_(camera), options_(options) {
@@ -216,86 +107,46 @@ DepthRegion ObjectTracker::Carried(const Frame& from, const DepthRegion& region,
 
 void ObjectTracker::TakeIn(const Detections& detections) {
   if (detections.frame == now_.id) {
-    Associate(now_, detections);
+    Associate(now_, detections.objects);
     return;
   }
   const auto past = std::find_if(history_.begin(), history_.end(),
                                  [&](const Frame& f) { return f.id == detections.frame; });
-  if (past != history_.end()) Associate(*past, detections);
+  if (past != history_.end()) Associate(*past, detections.objects);
 }
 
-DepthRegion ObjectTracker::Segment(const DepthView& view, const Detection& detection,
-                                   const cv::Mat& excluded) const {
-  const bool is_person = detection.class_id == kPersonClass;
-  return detection.mask.empty()
-             ? SegmentBox(view, detection.box, is_person, excluded, options_.region)
-             : SegmentMask(view, detection.box, detection.mask, is_person, excluded,
-                           options_.region);
-}
-
-// Those behind leave out what is covered.
-std::vector<DepthRegion> ObjectTracker::SegmentAll(const Frame& frame,
-                                                   const Detections& detections) const {
-  std::vector<DepthRegion> regions;
-  regions.reserve(detections.objects.size());
-  for (const Detection& detection : detections.objects)
-    regions.push_back(Segment(frame.view, detection, {}));
-  cv::Mat taken;
-  for (const std::size_t i : FrontToBack(detections.objects, regions)) {
-    const Detection& detection = detections.objects[i];
-    bool overlaps = false;
-    for (const Detection& other : detections.objects)
-      overlaps = overlaps || (&other != &detection && Iou(other.box, detection.box) > 0.0);
-    if (overlaps && !taken.empty()) regions[i] = Segment(frame.view, detection, taken);
-    if (regions[i].empty()) continue;
-    if (taken.empty()) taken = cv::Mat::zeros(regions[i].mask.size(), CV_8UC1);
-    taken.setTo(255, regions[i].mask);
+// Late detections are compared both where they were seen and where they are now.
+std::vector<BoxOverlap> ObjectTracker::Overlaps(const Frame& frame, const Detection& detection,
+                                                std::size_t index, const Box& box_now) const {
+  std::vector<BoxOverlap> overlaps;
+  for (const Object& object : objects_) {
+    if (object.class_id != detection.class_id && object.class_id >= 0) continue;
+    double iou = Iou(object.box, box_now);
+    for (const PastObject& past : frame.objects) {
+      if (past.id == object.id) iou = std::max(iou, Iou(past.box, detection.box));
+    }
+    if (iou >= options_.min_iou) overlaps.push_back({iou, index, object.id});
   }
-  return regions;
+  return overlaps;
 }
 
-// Best overlaps first, one to one, ties by id (Algorithm 2). Late detections are compared both
-// where they were seen and where they are now.
-void ObjectTracker::Associate(const Frame& frame, const Detections& detections) {
+void ObjectTracker::Associate(const Frame& frame, const std::vector<Detection>& detections) {
   const bool is_late = frame.id != now_.id;
-  std::vector<DepthRegion> regions = SegmentAll(frame, detections);
-  struct Pair {
-    double iou;
-    std::size_t detection;
-    TrackId id;
-  };
-  std::vector<Pair> pairs;
-  for (std::size_t d = 0; d < detections.objects.size(); ++d) {
-    const Detection& detection = detections.objects[d];
-    Box box_now = detection.box;
+  std::vector<DepthRegion> regions = SegmentDetections(frame.view, detections, options_.region);
+  std::vector<BoxOverlap> overlaps;
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    Box box_now = detections[d].box;
     if (is_late) {
       Object stranger;
-      stranger.class_id = detection.class_id;
+      stranger.class_id = detections[d].class_id;
       box_now = Carried(frame, regions[d], stranger).box;
     }
-    for (const Object& object : objects_) {
-      if (object.class_id != detection.class_id && object.class_id >= 0) continue;
-      double iou = Iou(object.box, box_now);
-      for (const PastObject& past : frame.objects) {
-        if (past.id == object.id) iou = std::max(iou, Iou(past.box, detection.box));
-      }
-      if (iou >= options_.min_iou) pairs.push_back({iou, d, object.id});
-    }
+    const std::vector<BoxOverlap> more = Overlaps(frame, detections[d], d, box_now);
+    overlaps.insert(overlaps.end(), more.begin(), more.end());
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
-    return a.iou != b.iou ? a.iou > b.iou : a.id < b.id;
-  });
-  std::vector<std::optional<TrackId>> match(detections.objects.size());
-  std::vector<TrackId> used;
-  for (const Pair& pair : pairs) {
-    if (match[pair.detection] || std::find(used.begin(), used.end(), pair.id) != used.end()) {
-      continue;
-    }
-    match[pair.detection] = pair.id;
-    used.push_back(pair.id);
-  }
-  for (std::size_t d = 0; d < detections.objects.size(); ++d)
-    Renew(match[d], detections.objects[d], std::move(regions[d]), frame);
+  const auto match = MatchBestFirst(std::move(overlaps), detections.size());
+  for (std::size_t d = 0; d < detections.size(); ++d)
+    Renew(match[d], detections[d], std::move(regions[d]), frame);
 }
 
 // A detection updates its object, or becomes a new one.

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cslam/objects/depth_region.h"
-#include "cslam/objects/keypoint_labels.h"
-#include "cslam/objects/motion_regions.h"
-#include "cslam/objects/object_filter.h"
+#include "cslam/objects/best_first_matching.h"
 #include "cslam/objects/object_sighting.h"
+#include "cslam/objects/object_tracker_options.h"
 #include "cslam/semantics/detection.h"
 #include "cslam/util/id.h"
 #include "cslam/util/stamp.h"
@@ -18,27 +16,6 @@
 #include <vector>
 
 namespace cslam {
-
-class OptionList;
-
-struct ObjectTrackerOptions {
-  bool enabled = true;          // off: every keypoint counts as background
-  bool label_movable = true;    // hold back the keypoints of things that may move
-  bool hold_back_new = false;   // until they are known to rest, as in the paper
-  bool filter_motion = true;    // trust movable things again once the filter finds them static
-  double min_iou = 0.3;         // for a detection to be a known object
-  double bridge_s = 1.0;        // how long an undetected object is carried on
-  double first_bridge_s = 0.2;  // ... if it was detected only once
-  int max_history_frames = 30;  // how old a frame may be whose detections come late
-  double left_behind_m = 0.3;   // a nameless thing seen to go so far is not trusted while in view
-  double flat_score = 0.5;      // of the score of what does not stand out from what is around it
-  double max_growth = 1.3;      // of a carried region's size, before it no longer grows
-  RegionOptions region;
-  LabelOptions labels;
-  ObjectFilterOptions filter;
-  MotionRegionOptions unknown;
-};
-void Describe(OptionList& list, ObjectTrackerOptions& options);
 
 // A thing followed from frame to frame, as others may see it.
 struct TrackedObject {
@@ -131,10 +108,9 @@ class ObjectTracker {
   void NoteTravel(Object& object) const;
   SurfaceMotion SurfaceMotionOf(const Object& object) const;
   void TakeIn(const Detections& detections);
-  void Associate(const Frame& frame, const Detections& detections);
-  DepthRegion Segment(const DepthView& view, const Detection& detection,
-                      const cv::Mat& excluded) const;
-  std::vector<DepthRegion> SegmentAll(const Frame& frame, const Detections& detections) const;
+  void Associate(const Frame& frame, const std::vector<Detection>& detections);
+  std::vector<BoxOverlap> Overlaps(const Frame& frame, const Detection& detection,
+                                   std::size_t index, const Box& box_now) const;
   void Renew(std::optional<TrackId> id, const Detection& detection, DepthRegion region,
              const Frame& frame);
   void Forget();
