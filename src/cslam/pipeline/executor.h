@@ -108,8 +108,8 @@ class Slam::ThreadedExecutor : public Slam::Executor {
  private:
   void ResetOrContinue(std::shared_ptr<Map> map);  // null: nothing to go on in
 
-  struct Shared;
-  std::unique_ptr<Shared> shared_;
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
   TrackingMode mode_ = TrackingMode::kMapping;  // of the frames to come
 };
 
