@@ -3,8 +3,6 @@
 #include "cslam/io/report_files.h"
 
 #include "cslam/io/truth_json.h"
-#include "cslam/util/atomic_file.h"
-#include "cslam/util/check.h"
 
 #include <fmt/format.h>
 
@@ -36,22 +34,6 @@ std::string OptionalStamp(const std::optional<Stamp>& stamp) {
 
 std::string OptionalPlace(const std::optional<Eigen::Vector3d>& place) {
   return place ? JsonArray(*place) : "null";
-}
-
-std::optional<Stamp> ReadOptionalStamp(const JsonValue& value) {
-  if (value.IsNull()) return std::nullopt;
-  return ReadStamp(value);
-}
-
-std::optional<Eigen::Vector3d> ReadOptionalPlace(const JsonValue& value) {
-  if (value.IsNull()) return std::nullopt;
-  return ReadVector3(value);
-}
-
-Eigen::Vector3d ReadSize(const JsonValue& value) {
-  const Eigen::Vector3d size_m = ReadVector3(value);
-  if (size_m.minCoeff() < 0.0) value.Fail("a size is negative");
-  return size_m;
 }
 
 Eigen::Quaterniond ReadRotation(const JsonValue& value) {
@@ -106,30 +88,10 @@ ReportedObject ReadObject(const JsonValue& value) {
   object.num_active_points = value.At("num_active_points").IntegerIn(0, object.num_points);
   object.first_seen = ReadStamp(value.At("first_seen"));
   object.last_seen = ReadStamp(value.At("last_seen"));
-  object.absent_since = ReadOptionalStamp(value.At("absent_since"));
+  object.absent_since = ReadOptional(value.At("absent_since"), ReadStamp);
   for (const JsonValue& item : value.At("history").Items())
     object.history.push_back(ReadBeliefSample(item));
   return object;
-}
-
-ChangeKind ReadKind(const JsonValue& value) {
-  const std::string name = value.Text();
-  for (const ChangeKind kind :
-       {ChangeKind::kRemoved, ChangeKind::kAdded, ChangeKind::kMoved, ChangeKind::kReplaced}) {
-    if (name == NameOf(kind)) return kind;
-  }
-  value.Fail("expected \"removed\", \"added\", \"moved\" or \"replaced\"");
-}
-
-void CheckFields(const JsonValue& value, const ReportedChange& change) {
-  if (change.from.has_value() == (change.kind == ChangeKind::kAdded))
-    value.Fail("'from_m' must be null when something is added, and only then");
-  if (change.to.has_value() == (change.kind == ChangeKind::kRemoved))
-    value.Fail("'to_m' must be null when something is removed, and only then");
-  const bool has_successor =
-      change.kind == ChangeKind::kReplaced || change.kind == ChangeKind::kMoved;
-  if (!has_successor && change.new_object != -1)
-    value.Fail("'new_object' must be -1 unless something is moved or replaced");
 }
 
 ReportedChange ReadChange(const JsonValue& value) {
@@ -137,21 +99,24 @@ ReportedChange ReadChange(const JsonValue& value) {
                      "last_seen_there", "first_seen_absent", "reported", "confidence",
                      "num_absent_views", "num_seen_views", "is_between_sessions"});
   ReportedChange change;
-  change.kind = ReadKind(value.At("kind"));
+  change.kind = ReadChangeKind(value, "from_m", "to_m");
   change.object = value.At("object").IntegerIn(-1, kMaxInt);
   change.new_object = value.At("new_object").IntegerIn(-1, kMaxInt);
   change.class_id = value.At("class_id").IntegerIn(-1, kMaxClass);
   change.new_class_id = value.At("new_class_id").IntegerIn(-1, kMaxClass);
-  change.from = ReadOptionalPlace(value.At("from_m"));
-  change.to = ReadOptionalPlace(value.At("to_m"));
+  change.from = ReadOptional(value.At("from_m"), ReadVector3);
+  change.to = ReadOptional(value.At("to_m"), ReadVector3);
   change.last_seen_there = ReadStamp(value.At("last_seen_there"));
-  change.first_seen_absent = ReadOptionalStamp(value.At("first_seen_absent"));
+  change.first_seen_absent = ReadOptional(value.At("first_seen_absent"), ReadStamp);
   change.reported = ReadStamp(value.At("reported"));
   change.confidence = value.At("confidence").NumberIn(0.0, 1.0);
   change.num_absent_views = value.At("num_absent_views").IntegerIn(0, kMaxInt);
   change.num_seen_views = value.At("num_seen_views").IntegerIn(0, kMaxInt);
   change.is_between_sessions = value.At("is_between_sessions").Bool();
-  CheckFields(value, change);
+  const bool has_successor =
+      change.kind == ChangeKind::kReplaced || change.kind == ChangeKind::kMoved;
+  if (!has_successor && change.new_object != -1)
+    value.Fail("'new_object' must be -1 unless something is moved or replaced");
   return change;
 }
 
@@ -228,23 +193,15 @@ ReportedChanges ReadReportedChanges(const std::filesystem::path& file) {
 }
 
 void WriteReportedObjects(const std::filesystem::path& file, const ReportedObjects& objects) {
-  AtomicFile out(file);
-  out.Write(TruthHeader(kObjectsFormat, objects.sequence));
-  out.Write("  \"objects\": [");
-  for (std::size_t i = 0; i < objects.objects.size(); ++i)
-    out.Print("{}\n{}", i == 0 ? "" : ",", FormatObject(objects.objects[i]));
-  out.Write("\n  ]\n}\n");
-  out.Commit();
+  const ListFileHead head{
+      .format = kObjectsFormat, .sequence = objects.sequence, .fields = "", .list = "objects"};
+  WriteListFile(file, head, objects.objects, FormatObject);
 }
 
 void WriteReportedChanges(const std::filesystem::path& file, const ReportedChanges& changes) {
-  AtomicFile out(file);
-  out.Write(TruthHeader(kChangesFormat, changes.sequence));
-  out.Write("  \"changes\": [");
-  for (std::size_t i = 0; i < changes.changes.size(); ++i)
-    out.Print("{}\n{}", i == 0 ? "" : ",", FormatChange(changes.changes[i]));
-  out.Write("\n  ]\n}\n");
-  out.Commit();
+  const ListFileHead head{
+      .format = kChangesFormat, .sequence = changes.sequence, .fields = "", .list = "changes"};
+  WriteListFile(file, head, changes.changes, FormatChange);
 }
 
 }  // namespace cslam

@@ -70,6 +70,8 @@ struct ReportedChange {
   int num_absent_views = 0;
   int num_seen_views = 0;
   bool is_between_sessions = false;
+
+  bool operator==(const ReportedChange&) const = default;
 };
 
 struct ReportedChanges {

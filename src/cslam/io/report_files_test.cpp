@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/io/report_files.h"
 
+#include "cslam/io/test_broken_file.h"
 #include "cslam/util/check.h"
 #include "cslam/util/test_folder.h"
 
@@ -96,24 +97,9 @@ TEST(ReportedChanges, ReadBackAsWritten) {
   const ReportedChanges read = ReadReportedChanges(folder / "changes.json");
   EXPECT_EQ(read.sequence, "demo");
   ASSERT_EQ(read.changes.size(), changes.changes.size());
-  for (std::size_t i = 0; i < changes.changes.size(); ++i) {
-    const ReportedChange& a = read.changes[i];
-    const ReportedChange& b = changes.changes[i];
-    EXPECT_EQ(a.kind, b.kind);
-    EXPECT_EQ(a.object, b.object);
-    EXPECT_EQ(a.new_object, b.new_object);
-    EXPECT_EQ(a.class_id, b.class_id);
-    EXPECT_EQ(a.new_class_id, b.new_class_id);
-    EXPECT_EQ(a.from, b.from);
-    EXPECT_EQ(a.to, b.to);
-    EXPECT_EQ(a.last_seen_there, b.last_seen_there);
-    EXPECT_EQ(a.first_seen_absent, b.first_seen_absent);
-    EXPECT_EQ(a.reported, b.reported);
-    EXPECT_EQ(a.confidence, b.confidence);
-    EXPECT_EQ(a.num_absent_views, b.num_absent_views);
-    EXPECT_EQ(a.num_seen_views, b.num_seen_views);
-    EXPECT_EQ(a.is_between_sessions, b.is_between_sessions);
-  }
+  for (std::size_t i = 0; i < changes.changes.size(); ++i)
+    EXPECT_TRUE(read.changes[i] == changes.changes[i]) << "change " << i << " in\n"
+                                                       << TestFolder::Read(folder / "changes.json");
 }
 
 TEST(ReportFiles, WithNothingToReportReadBackEmpty) {
@@ -132,27 +118,19 @@ TEST(WriteReportedObjects, RefusesWhatJsonCannotSay) {
   EXPECT_FALSE(std::filesystem::exists(folder / "objects.json"));
 }
 
-// Replaces the first occurrence of what in a good file, and tells what the reader says to it.
+// What the readers say to a good file with a text in it replaced.
 class BrokenReport : public testing::Test {
  protected:
   std::string Objects(std::string_view what, std::string_view by) {
     WriteReportedObjects(folder_ / "objects.json", SomeObjects());
-    Replace("objects.json", what, by);
-    return MessageOf([&] { ReadReportedObjects(folder_ / "objects.json"); });
+    return test::ProblemOf(folder_ / "objects.json", what, by, ReadReportedObjects);
   }
   std::string Changes(std::string_view what, std::string_view by) {
     WriteReportedChanges(folder_ / "changes.json", SomeChanges());
-    Replace("changes.json", what, by);
-    return MessageOf([&] { ReadReportedChanges(folder_ / "changes.json"); });
+    return test::ProblemOf(folder_ / "changes.json", what, by, ReadReportedChanges);
   }
 
  private:
-  void Replace(std::string_view file, std::string_view what, std::string_view by) {
-    std::string text = TestFolder::Read(folder_ / file);
-    const std::size_t start = text.find(what);
-    ASSERT_NE(start, std::string::npos) << what << " is not in\n" << text;
-    folder_.Write(file, text.replace(start, what.size(), by));
-  }
   TestFolder folder_;
 };
 

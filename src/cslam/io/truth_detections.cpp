@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/io/truth_files.h"
 #include "cslam/io/truth_json.h"
-#include "cslam/util/atomic_file.h"
-#include "cslam/util/check.h"
 
 #include <fmt/format.h>
 
@@ -79,14 +77,11 @@ DetectionRecord ReadDetections(const std::filesystem::path& file) {
 }
 
 void WriteDetections(const std::filesystem::path& file, const DetectionRecord& record) {
-  AtomicFile out(file);
-  out.Write(TruthHeader(kFormat, record.sequence));
-  out.Print("  \"width_px\": {},\n  \"height_px\": {},\n  \"frames\": [", record.width_px,
-            record.height_px);
-  for (std::size_t i = 0; i < record.frames.size(); ++i)
-    out.Print("{}\n{}", i == 0 ? "" : ",", FormatFrame(record.frames[i]));
-  out.Write("\n  ]\n}\n");
-  out.Commit();
+  const std::string fields =
+      fmt::format("  \"width_px\": {},\n  \"height_px\": {},\n", record.width_px, record.height_px);
+  const ListFileHead head{
+      .format = kFormat, .sequence = record.sequence, .fields = fields, .list = "frames"};
+  WriteListFile(file, head, record.frames, FormatFrame);
 }
 
 }  // namespace cslam

@@ -30,11 +30,15 @@ struct RecordedDetection {
   double score = 1.0;
   Box box;             // around the visible pixels, exact
   int visible_px = 0;  // pixels of the instance in the image
+
+  bool operator==(const RecordedDetection&) const = default;
 };
 
 struct RecordedFrame {
   Stamp stamp;
   std::vector<RecordedDetection> detections;  // by instance id
+
+  bool operator==(const RecordedFrame&) const = default;
 };
 
 struct DetectionRecord {

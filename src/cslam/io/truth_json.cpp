@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/io/truth_json.h"
 
-#include "cslam/io/truth_files.h"
 #include "cslam/util/check.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -16,6 +16,16 @@ namespace cslam {
 namespace {
 
 constexpr double kMaxQuaternionError = 0.01;  // of its length, as for trajectories
+constexpr std::array kChangeKinds{ChangeKind::kRemoved, ChangeKind::kAdded, ChangeKind::kMoved,
+                                  ChangeKind::kReplaced};
+
+ChangeKind ReadKind(const JsonValue& value) {
+  const std::string name = value.Text();
+  for (const ChangeKind kind : kChangeKinds) {
+    if (name == NameOf(kind)) return kind;
+  }
+  value.Fail("expected \"removed\", \"added\", \"moved\" or \"replaced\"");
+}
 
 }  // namespace
 
@@ -33,6 +43,11 @@ void RequireFormat(const JsonValue& root, std::string_view format) {
 std::string TruthHeader(std::string_view format, std::string_view sequence) {
   return fmt::format("{{\n  \"format\": \"{}\",\n  \"version\": {},\n  \"sequence\": {},\n", format,
                      kTruthFileVersion, JsonQuoted(sequence));
+}
+
+std::string ListStart(const ListFileHead& head) {
+  return fmt::format("{}{}  \"{}\": [", TruthHeader(head.format, head.sequence), head.fields,
+                     head.list);
 }
 
 std::string JsonNumber(double value) {
@@ -71,6 +86,25 @@ Se3 ReadPose(const JsonValue& value) {
 Eigen::Vector3d ReadVector3(const JsonValue& value) {
   const std::vector<JsonValue> items = value.Items(3);
   return {items[0].Number(), items[1].Number(), items[2].Number()};
+}
+
+Eigen::Vector3d ReadSize(const JsonValue& value) {
+  const Eigen::Vector3d size_m = ReadVector3(value);
+  if (size_m.minCoeff() < 0.0) value.Fail("a size is negative");
+  return size_m;
+}
+
+ChangeKind ReadChangeKind(const JsonValue& change, std::string_view from_key,
+                          std::string_view to_key) {
+  const ChangeKind kind = ReadKind(change.At("kind"));
+  const auto require_null = [&](std::string_view key, ChangeKind when) {
+    if (change.At(key).IsNull() == (kind == when)) return;
+    change.Fail(
+        fmt::format("'{}' must be null when something is {}, and only then", key, NameOf(when)));
+  };
+  require_null(from_key, ChangeKind::kAdded);
+  require_null(to_key, ChangeKind::kRemoved);
+  return kind;
 }
 
 std::string JsonStamp(Stamp stamp) {

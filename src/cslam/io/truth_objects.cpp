@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/io/truth_files.h"
 #include "cslam/io/truth_json.h"
-#include "cslam/util/atomic_file.h"
-#include "cslam/util/check.h"
 
 #include <fmt/format.h>
 
@@ -46,8 +44,7 @@ TrueObject ReadObject(const JsonValue& value) {
   const JsonValue box = value.At("box");
   box.RequireKeys({"center_m", "size_m"});
   object.box_center = ReadVector3(box.At("center_m"));
-  object.box_size_m = ReadVector3(box.At("size_m"));
-  if (object.box_size_m.minCoeff() < 0.0) box.At("size_m").Fail("a size is negative");
+  object.box_size_m = ReadSize(box.At("size_m"));
   for (const JsonValue& item : value.At("intervals").Items()) {
     object.intervals.push_back(ReadInterval(item));
     const std::size_t count = object.intervals.size();
@@ -104,14 +101,11 @@ TrueObjects ReadTrueObjects(const std::filesystem::path& file) {
 }
 
 void WriteTrueObjects(const std::filesystem::path& file, const TrueObjects& objects) {
-  AtomicFile out(file);
-  out.Write(TruthHeader(kFormat, objects.sequence));
-  out.Print("  \"start\": {},\n  \"duration_s\": {},\n  \"objects\": [", JsonStamp(objects.start),
-            JsonNumber(objects.duration_s));
-  for (std::size_t i = 0; i < objects.objects.size(); ++i)
-    out.Print("{}\n{}", i == 0 ? "" : ",", FormatObject(objects.objects[i]));
-  out.Write("\n  ]\n}\n");
-  out.Commit();
+  const std::string fields = fmt::format("  \"start\": {},\n  \"duration_s\": {},\n",
+                                         JsonStamp(objects.start), JsonNumber(objects.duration_s));
+  const ListFileHead head{
+      .format = kFormat, .sequence = objects.sequence, .fields = fields, .list = "objects"};
+  WriteListFile(file, head, objects.objects, FormatObject);
 }
 
 }  // namespace cslam
