@@ -109,4 +109,11 @@ std::string JsonObject::Text() const {
   return Enclose('{', items, '}');
 }
 
+std::string JsonItems(std::span<const JsonObject> items) {
+  std::string text;
+  for (const JsonObject& item : items)
+    text += fmt::format("{}{}", text.empty() ? "" : ",\n", item.Text());
+  return text;
+}
+
 }  // namespace cslam

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,5 +43,8 @@ class JsonObject {
 
   std::vector<std::pair<std::string, std::string>> fields_;  // key and value, both as JSON
 };
+
+// What stands between the brackets of an array of them, not indented.
+std::string JsonItems(std::span<const JsonObject> items);
 
 }  // namespace cslam

@@ -52,6 +52,13 @@ TEST(JsonObject, WritesNullWhenANumberIsNoneOrAbsent) {
   EXPECT_EQ(json.Text(), "{\n  \"nan\": null,\n  \"absent\": null,\n  \"there\": 0.25\n}");
 }
 
+TEST(JsonItems, StandOneAfterTheOther) {
+  JsonObject item;
+  item.Add("a", 1);
+  EXPECT_EQ(JsonItems({}), "");
+  EXPECT_EQ(JsonItems(std::vector{item, item}), "{\n  \"a\": 1\n},\n{\n  \"a\": 1\n}");
+}
+
 TEST(JsonObject, EscapesWhatWouldEndAText) {
   EXPECT_EQ(Single("a\"b\\c\n\x01"), "{\n  \"k\": \"a\\\"b\\\\c\\u000a\\u0001\"\n}");
 }

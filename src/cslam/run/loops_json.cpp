@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/run/loops_json.h"
 
-#include "cslam/run/json_object.h"
+#include "cslam/run/pose_json.h"
 
 #include <fmt/format.h>
 
 #include <numbers>
+#include <vector>
 
 namespace cslam {
 namespace {
@@ -31,18 +32,6 @@ JsonObject ToJson(const LoopEvidence& evidence) {
   return json;
 }
 
-JsonObject ToJson(const Se3& T) {
-  JsonObject json;
-  json.Add("tx_m", T.translation.x());
-  json.Add("ty_m", T.translation.y());
-  json.Add("tz_m", T.translation.z());
-  json.Add("qx", T.rotation.x());
-  json.Add("qy", T.rotation.y());
-  json.Add("qz", T.rotation.z());
-  json.Add("qw", T.rotation.w());
-  return json;
-}
-
 JsonObject ToJson(const LoopRecord& record) {
   JsonObject json;
   json.Add("query_stamp", FormatStamp(record.query_stamp));
@@ -51,11 +40,7 @@ JsonObject ToJson(const LoopRecord& record) {
   json.Add("match_map", record.match_map.value());
   json.Add("verdict", ToString(record.verdict));
   json.Add("reason", record.reason);
-  if (record.T_match_query) {
-    json.Add("T_match_query", ToJson(*record.T_match_query));
-  } else {
-    json.AddNull("T_match_query");
-  }
+  json.Add("T_match_query", PoseToJson(record.T_match_query));
   json.Add("evidence", ToJson(record.evidence));
   return json;
 }
@@ -63,13 +48,11 @@ JsonObject ToJson(const LoopRecord& record) {
 }  // namespace
 
 std::string FormatLoopsJson(std::span<const LoopRecord> records) {
-  std::string candidates;
-  for (const LoopRecord& record : records) {
-    if (!candidates.empty()) candidates += ",\n";
-    candidates += ToJson(record).Text();
-  }
+  std::vector<JsonObject> candidates;
+  for (const LoopRecord& record : records)
+    candidates.push_back(ToJson(record));
   return fmt::format("{{\"format\": \"loops\", \"version\": 1, \"candidates\": [\n{}\n]}}\n",
-                     candidates);
+                     JsonItems(candidates));
 }
 
 }  // namespace cslam

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/run/relocalisation_report.h"
 
-#include "cslam/run/json_object.h"
+#include "cslam/run/pose_json.h"
 #include "cslam/run/stage_times.h"
 #include "cslam/util/text_table.h"
 
@@ -25,18 +25,6 @@ TimeSummary FindTimes(const std::vector<Frame>& frames) {
   return SummariseTimes(std::move(times_ms));
 }
 
-JsonObject ToJson(const Se3& T) {
-  JsonObject json;
-  json.Add("tx_m", T.translation.x());
-  json.Add("ty_m", T.translation.y());
-  json.Add("tz_m", T.translation.z());
-  json.Add("qx", T.rotation.x());
-  json.Add("qy", T.rotation.y());
-  json.Add("qz", T.rotation.z());
-  json.Add("qw", T.rotation.w());
-  return json;
-}
-
 JsonObject ToJson(const Frame& frame) {
   const LocalisedFrame& result = frame.result;
   JsonObject json;
@@ -44,20 +32,17 @@ JsonObject ToJson(const Frame& frame) {
   json.Add("stamp", FormatStamp(result.stamp));
   json.Add("is_found", result.T_world_camera.has_value());
   json.Add("reason", result.reason);
-  if (result.T_world_camera) {
-    json.Add("map", result.map.value());
-    json.Add("T_world_camera", ToJson(*result.T_world_camera));
-  } else {
-    json.AddNull("map");
-    json.AddNull("T_world_camera");
-  }
+  json.Add("map", result.T_world_camera ? std::optional(result.map.value()) : std::nullopt);
+  json.Add("T_world_camera", PoseToJson(result.T_world_camera));
   json.Add("error_m", frame.error ? std::optional(frame.error->distance_m) : std::nullopt);
   json.Add("error_deg",
            frame.error ? std::optional(frame.error->angle_rad * kDegPerRad) : std::nullopt);
   return json;
 }
 
-JsonObject ToJson(const RelocalisationErrors& errors) {
+// null without ground truth.
+std::optional<JsonObject> ToJson(const RelocalisationErrors& errors) {
+  if (errors.count == 0) return std::nullopt;
   JsonObject json;
   json.Add("frames", errors.count);
   json.Add("median_m", errors.median_m);
@@ -130,18 +115,13 @@ std::string FormatRelocalisationJson(const RelocalisationReport& report) {
   head.Add("found", CountFound(report));
   head.Add("unreadable", report.num_unreadable);
   head.Add("keyframe_rmse_m", report.keyframe_rmse_m);
-  const RelocalisationErrors errors = SummariseErrors(report.frames);
-  if (errors.count > 0) {
-    head.Add("errors", ToJson(errors));
-  } else {
-    head.AddNull("errors");
-  }
-  std::string results;
+  head.Add("errors", ToJson(SummariseErrors(report.frames)));
+  std::vector<JsonObject> results;
   for (const Frame& frame : report.frames)
-    results += fmt::format("{}{}", results.empty() ? "" : ",\n", ToJson(frame).Text());
+    results.push_back(ToJson(frame));
   std::string text = head.Text();
   text.resize(text.rfind('\n'));  // without the closing brace
-  return fmt::format("{},\n  \"results\": [\n{}\n]}}\n", text, results);
+  return fmt::format("{},\n  \"results\": [\n{}\n]}}\n", text, JsonItems(results));
 }
 
 }  // namespace cslam
