@@ -14,11 +14,11 @@ namespace cslam {
 namespace {
 
 using test::kChair;
+using test::kLeft;
+using test::kRight;
 using test::kTv;
 using test::kUmbrella;
 
-const Eigen::Vector3d kLeft(-0.8, 0.0, 3.0);
-const Eigen::Vector3d kRight(0.8, 0.0, 3.0);
 constexpr double kChangeS = 4.0;
 
 TrueChange True(ChangeKind kind, int instance, const std::optional<Eigen::Vector3d>& from,
@@ -54,10 +54,9 @@ test::TestWorld MovedChair() {
 
 ChangeEvaluation Evaluate(const test::TestWorld& world, std::vector<ReportedChange> told,
                           const SceneEvalOptions& options = {}) {
-  const SceneTruth truth = test::TruthOf(world);
-  SceneRun run = test::RunOf(truth);
-  run.changes = std::move(told);
-  return EvaluateChanges(truth, run, options);
+  test::TestScene scene(world);
+  scene.run.changes = std::move(told);
+  return EvaluateChanges(scene.truth, scene.run, options);
 }
 
 TEST(EvaluateChanges, GivesFullMarksToAPerfectReport) {
@@ -209,22 +208,20 @@ TEST(EvaluateChanges, CountsWhatIsCarriedInView) {
 TEST(EvaluateChanges, CountsWhatChangedBetweenTwoSessions) {
   test::TestWorld world = MovedChair();
   world.yaw_rad = test::LookStraight;
-  const SceneTruth truth = test::TruthOf(world);
-  SceneRun run = test::RunOf(truth);
-  run.trajectory.erase(run.trajectory.begin(), run.trajectory.begin() + 60);
-  run.changes = {Told(ChangeKind::kMoved, kLeft, kRight, 6.5)};
-  EXPECT_EQ(EvaluateChanges(truth, run).all.num_true, 0) << "it began with nothing";
-  run.earlier = SessionTime{.from = test::StampAt(0.0), .to = test::StampAt(2.0)};
-  const ChangeEvaluation evaluation = EvaluateChanges(truth, run);
+  test::TestScene scene(world);
+  scene.run.trajectory.erase(scene.run.trajectory.begin(), scene.run.trajectory.begin() + 60);
+  scene.run.changes = {Told(ChangeKind::kMoved, kLeft, kRight, 6.5)};
+  EXPECT_EQ(EvaluateChanges(scene.truth, scene.run).all.num_true, 0) << "it began with nothing";
+  scene.run.earlier = SessionTime{.from = test::StampAt(0.0), .to = test::StampAt(2.0)};
+  const ChangeEvaluation evaluation = EvaluateChanges(scene.truth, scene.run);
   EXPECT_EQ(evaluation.all.F1(), 1.0);
   EXPECT_NEAR(*evaluation.changes.at(0).truth.old_view_s, 6.0, 0.05) << "nobody looked at 4 s";
 }
 
 TEST(EvaluateChanges, LeavesOutWhatTheRunDidNotLiveToSee) {
-  const SceneTruth truth = test::TruthOf(MovedChair());
-  SceneRun run = test::RunOf(truth);
-  run.trajectory.resize(30);
-  EXPECT_TRUE(EvaluateChanges(truth, run).changes.empty());
+  test::TestScene scene(MovedChair());
+  scene.run.trajectory.resize(30);
+  EXPECT_TRUE(EvaluateChanges(scene.truth, scene.run).changes.empty());
 }
 
 }  // namespace

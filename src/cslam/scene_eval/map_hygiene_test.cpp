@@ -13,7 +13,8 @@
 namespace cslam {
 namespace {
 
-const Eigen::Vector3d kLeft(-0.8, 0.0, 3.0);
+using test::kLeft;
+
 const Eigen::Vector3d kFront(-0.8, 0.0, 2.8);  // of the box there, as the camera sees it
 
 test::TestWorld ChairLeaves() {
@@ -24,10 +25,9 @@ test::TestWorld ChairLeaves() {
 }
 
 GhostCount Count(const test::TestWorld& world, std::vector<Eigen::Vector3d> points) {
-  const SceneTruth truth = test::TruthOf(world);
-  SceneRun run = test::RunOf(truth);
-  run.map_points = std::move(points);
-  return CountGhosts(truth, run);
+  test::TestScene scene(world);
+  scene.run.map_points = std::move(points);
+  return CountGhosts(scene.truth, scene.run);
 }
 
 TEST(CountGhosts, FindsPointsOfWhatIsGone) {
@@ -70,10 +70,10 @@ TEST(CountGhosts, CountsAPointOfTwoFormerThingsOnce) {
 }
 
 TEST(CountGhosts, NeedsTheMap) {
-  const SceneTruth truth = test::TruthOf(ChairLeaves());
-  SceneRun run = test::RunOf(truth);
-  run.map_points.reset();
-  EXPECT_THAT(MessageOf([&] { CountGhosts(truth, run); }), testing::HasSubstr("map.ply"));
+  test::TestScene scene(ChairLeaves());
+  scene.run.map_points.reset();
+  EXPECT_THAT(MessageOf([&] { CountGhosts(scene.truth, scene.run); }),
+              testing::HasSubstr("map.ply"));
 }
 
 TEST(ShareOfActivePoints, LooksAtSettledMatchedObjectsOnly) {

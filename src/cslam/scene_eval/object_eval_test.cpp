@@ -16,12 +16,11 @@ namespace {
 
 using test::Found;
 using test::kChair;
+using test::kLeft;
+using test::kMiddle;
+using test::kRight;
 using test::kTv;
 using test::kUmbrella;
-
-const Eigen::Vector3d kLeft(-0.8, 0.0, 3.0);
-const Eigen::Vector3d kRight(0.8, 0.0, 3.0);
-const Eigen::Vector3d kMiddle(0.0, 0.0, 3.0);
 
 test::TestWorld TwoThings() {
   test::TestWorld world;
@@ -33,10 +32,9 @@ test::TestWorld TwoThings() {
 
 ObjectEvaluation Evaluate(const test::TestWorld& world, std::vector<FoundObject> found,
                           const SceneEvalOptions& options = {}) {
-  const SceneTruth truth = test::TruthOf(world);
-  SceneRun run = test::RunOf(truth);
-  run.objects = std::move(found);
-  return EvaluateObjects(truth, run, options);
+  test::TestScene scene(world);
+  scene.run.objects = std::move(found);
+  return EvaluateObjects(scene.truth, scene.run, options);
 }
 
 TEST(EvaluateObjects, GivesFullMarksToAPerfectMap) {
@@ -148,10 +146,10 @@ TEST(EvaluateObjects, CallsAnObjectFalseWhoseReplacementHidesItsPlace) {
 }
 
 TEST(EvaluateObjects, NeedsTheRunsObjects) {
-  const SceneTruth truth = test::TruthOf(TwoThings());
-  SceneRun run = test::RunOf(truth);
-  run.objects.reset();
-  EXPECT_THAT(MessageOf([&] { EvaluateObjects(truth, run); }), testing::HasSubstr("objects.json"));
+  test::TestScene scene(TwoThings());
+  scene.run.objects.reset();
+  EXPECT_THAT(MessageOf([&] { EvaluateObjects(scene.truth, scene.run); }),
+              testing::HasSubstr("objects.json"));
 }
 
 }  // namespace

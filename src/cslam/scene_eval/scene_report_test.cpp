@@ -12,10 +12,9 @@ namespace cslam {
 namespace {
 
 using nlohmann::json;
+using test::kLeft;
+using test::kRight;
 using testing::HasSubstr;
-
-const Eigen::Vector3d kLeft(-0.8, 0.0, 3.0);
-const Eigen::Vector3d kRight(0.8, 0.0, 3.0);
 
 // A chair that is moved in view at 1 s, and a tv.
 class SceneReport : public testing::Test {

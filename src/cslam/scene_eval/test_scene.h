@@ -32,6 +32,11 @@ constexpr double kFrameS = 0.1;
 constexpr std::int64_t kFrameNs = 100'000'000;
 constexpr double kWallM = 4.5;  // away from the camera's start, across its axis
 
+// Places that the camera sees as it starts, m.
+inline const Eigen::Vector3d kLeft(-0.8, 0.0, 3.0);
+inline const Eigen::Vector3d kMiddle(0.0, 0.0, 3.0);
+inline const Eigen::Vector3d kRight(0.8, 0.0, 3.0);
+
 struct TestStay {
   int instance = 0;
   int class_id = kChair;
@@ -215,5 +220,13 @@ inline SceneRun RunOf(const SceneTruth& truth) {
   run.map_points.emplace();
   return run;
 }
+
+// A world and such a run in it, which a test spoils.
+struct TestScene {
+  explicit TestScene(const TestWorld& world) : truth(TruthOf(world)), run(RunOf(truth)) {}
+
+  SceneTruth truth;
+  SceneRun run;
+};
 
 }  // namespace cslam::test
