@@ -3,6 +3,7 @@
 #include "cslam/atlas_io/map_export.h"
 
 #include "cslam/util/check.h"
+#include "cslam/vision/pixel_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,30 +23,6 @@ std::vector<const Keyframe*> KeyframesOf(const MapView& map, MapId map_id) {
   }
   return keyframes;
 }
-
-// For each pixel of a reduced depth image the point at depth 1 m.
-class PixelRays {
- public:
-  PixelRays(const Camera& camera, const cv::Size& size) : size_(size) {
-    const int step = camera.width / size.width;
-    rays_.reserve(static_cast<std::size_t>(size.area()));
-    for (int v = 0; v < size.height; ++v) {
-      for (int u = 0; u < size.width; ++u) {
-        const Eigen::Vector2d raw_px(u * step + step / 2, v * step + step / 2);
-        rays_.push_back(Unproject(camera, Undistort(camera, raw_px), 1.0));
-      }
-    }
-  }
-
-  const cv::Size& size() const { return size_; }
-  const Eigen::Vector3d& At(int u, int v) const {
-    return rays_[static_cast<std::size_t>(v * size_.width + u)];
-  }
-
- private:
-  cv::Size size_;
-  std::vector<Eigen::Vector3d> rays_;
-};
 
 // Gathers points cube by cube.
 class VoxelGrid {

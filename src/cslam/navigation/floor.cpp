@@ -167,7 +167,7 @@ Floor EstimateFloor(std::span<const SurfaceElement> elements, const Eigen::Vecto
   return Refine(vertical, FloorHeight(vertical, options.min_share), options);
 }
 
-Floor EstimateFloor(const std::vector<const Keyframe*>& keyframes, const DepthRays& rays,
+Floor EstimateFloor(const std::vector<const Keyframe*>& keyframes, const PixelRays& rays,
                     double max_depth_m, const FloorOptions& options) {
   const std::size_t step = (keyframes.size() + kMaxKeyframes - 1) / kMaxKeyframes;
   std::vector<SurfaceElement> elements;

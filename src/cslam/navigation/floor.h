@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cslam/navigation/depth_rays.h"
+#include "cslam/navigation/surface_elements.h"
 
 #include <Eigen/Core>
 
@@ -38,7 +38,7 @@ Floor EstimateFloor(std::span<const SurfaceElement> elements, const Eigen::Vecto
                     const FloorOptions& options);
 
 // The same from the depth of keyframes (not empty; all of the size of rays).
-Floor EstimateFloor(const std::vector<const Keyframe*>& keyframes, const DepthRays& rays,
+Floor EstimateFloor(const std::vector<const Keyframe*>& keyframes, const PixelRays& rays,
                     double max_depth_m, const FloorOptions& options);
 
 }  // namespace cslam

@@ -48,7 +48,7 @@ struct Reading {
 // Reads the depth of keyframes into the grid frame.
 class Reader {
  public:
-  Reader(const DepthRays& rays, const Se3& T_grid_world, std::span<const ClearedRegion> cleared,
+  Reader(const PixelRays& rays, const Se3& T_grid_world, std::span<const ClearedRegion> cleared,
          const OccupancyGridOptions& options)
       : rays_(rays), T_grid_world_(T_grid_world), cleared_(cleared), options_(options) {}
 
@@ -119,7 +119,7 @@ class Reader {
     });
   }
 
-  const DepthRays& rays_;
+  const PixelRays& rays_;
   const Se3 T_grid_world_;
   const std::span<const ClearedRegion> cleared_;
   const OccupancyGridOptions& options_;
@@ -263,7 +263,7 @@ std::optional<OccupancyGrid> BuildOccupancyGrid(const MapView& map, MapId map_id
                                                 const OccupancyGridOptions& options) {
   const std::vector<const Keyframe*> keyframes = KeyframesWithDepth(map, map_id);
   if (keyframes.empty()) return std::nullopt;
-  const DepthRays rays(camera, keyframes.front()->data->depth_small_mm.size());
+  const PixelRays rays(camera, keyframes.front()->data->depth_small_mm.size());
   const Floor floor = EstimateFloor(keyframes, rays, options.max_depth_m, options.floor);
   const Se3 T_grid_world = GridFromWorld(floor);
   const Reader reader(rays, T_grid_world, cleared, options);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cslam/navigation/depth_rays.h"
+#include "cslam/navigation/surface_elements.h"
 
 #include <array>
 #include <cmath>
@@ -12,17 +12,6 @@ constexpr int kReachPx = 2;           // the neighbours that tell a normal are s
 constexpr double kSmoothRatio = 0.1;  // a larger step in depth is another surface
 
 }  // namespace
-
-DepthRays::DepthRays(const Camera& camera, const cv::Size& size) : size_(size) {
-  const int step = camera.width / size.width;
-  rays_.reserve(static_cast<std::size_t>(size.area()));
-  for (int v = 0; v < size.height; ++v) {
-    for (int u = 0; u < size.width; ++u) {
-      const Eigen::Vector2d raw_px(u * step + step / 2, v * step + step / 2);
-      rays_.push_back(Unproject(camera, Undistort(camera, raw_px), 1.0));
-    }
-  }
-}
 
 std::vector<const Keyframe*> KeyframesWithDepth(const MapView& map, MapId map_id) {
   std::vector<const Keyframe*> keyframes;
@@ -38,7 +27,7 @@ std::vector<const Keyframe*> KeyframesWithDepth(const MapView& map, MapId map_id
   return keyframes;
 }
 
-std::vector<SurfaceElement> SurfaceElements(const Keyframe& keyframe, const DepthRays& rays,
+std::vector<SurfaceElement> SurfaceElements(const Keyframe& keyframe, const PixelRays& rays,
                                             int step, double max_depth_m) {
   const cv::Mat& depth_mm = keyframe.data->depth_small_mm;
   const Eigen::Matrix3d R_world_camera = keyframe.T_world_camera.R();
