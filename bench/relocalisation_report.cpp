@@ -19,6 +19,7 @@
 #include "cslam/pipeline/slam.h"
 #include "cslam/run/map_truth.h"
 #include "cslam/util/check.h"
+#include "cslam/util/quantile.h"
 #include "cslam/vision/depth_thumbnail.h"
 
 #include <fmt/format.h>
@@ -61,10 +62,7 @@ struct MappedHalf {
 };
 
 double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0.0 : MedianOf(std::move(values));
 }
 
 // Without object filters: the recordings asked about are of places in which nothing moves.

@@ -4,6 +4,7 @@
 
 #include "cslam/dataset/surface_patch.h"
 #include "cslam/dataset/truth_lookup.h"
+#include "cslam/util/quantile.h"
 #include "cslam/util/random.h"
 
 #include <Eigen/Core>
@@ -77,14 +78,11 @@ struct Differences {
   }
 };
 
-double Quantile(std::vector<double>& values, double share) {
-  if (values.empty()) return 0.0;
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+double Quantile(const std::vector<double>& values, double share) {
+  return values.empty() ? 0.0 : QuantileOf(values, share);
 }
 
-ReprojectionFigures Summarise(Differences& d) {
+ReprojectionFigures Summarise(const Differences& d) {
   ReprojectionFigures figures;
   figures.num_points = d.absolute_m.size();
   figures.median_m = Quantile(d.absolute_m, 0.5);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/eval/plot_data.h"
 
+#include "cslam/util/quantile.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -87,9 +89,7 @@ double LongestStep(const std::vector<PlotPoint>& points) {
   for (std::size_t i = 1; i < points.size(); ++i)
     steps_s.push_back(points[i].time_s - points[i - 1].time_s);
   if (steps_s.empty()) return kShortestGapS;
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  return std::max(kShortestGapS, 5.0 * *middle);
+  return std::max(kShortestGapS, 5.0 * MedianOf(std::move(steps_s)));
 }
 
 std::vector<std::vector<PlotPoint>> SplitAtGaps(const std::vector<PlotPoint>& points) {

@@ -4,6 +4,7 @@
 
 #include "cslam/io/dataset_info.h"
 #include "cslam/util/check.h"
+#include "cslam/util/quantile.h"
 
 #include <fmt/format.h>
 
@@ -37,10 +38,7 @@ double LongGapS(const std::vector<TumPair>& pairs) {
   std::vector<double> intervals_s;
   for (std::size_t i = 1; i < pairs.size(); ++i)
     intervals_s.push_back(SecondsBetween(pairs[i].color_stamp, pairs[i - 1].color_stamp));
-  const auto middle =
-      intervals_s.begin() + static_cast<std::ptrdiff_t>((intervals_s.size() - 1) / 2);
-  std::nth_element(intervals_s.begin(), middle, intervals_s.end());
-  return std::max(kLongGapS, kPauseIntervals * *middle);
+  return std::max(kLongGapS, kPauseIntervals * QuantileOf(std::move(intervals_s), 0.5));
 }
 
 void CheckTimes(DatasetCheck& check, const TumIndex& index) {

@@ -6,6 +6,7 @@
 #include "cslam/io/image_codec.h"
 #include "cslam/io/trajectory_file.h"
 #include "cslam/util/check.h"
+#include "cslam/util/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,19 +28,11 @@ std::vector<double> IntervalsOf(const std::vector<TumPair>& pairs) {
   return intervals_s;
 }
 
-// The upper of the two middle values; 0 for none.
-template <typename T>
-double MedianOf(std::vector<T> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
-
 void FillTimes(DatasetInfo& info, const std::vector<TumPair>& pairs) {
   info.first_stamp = pairs.front().color_stamp;
   info.duration_s = SecondsBetween(pairs.back().color_stamp, info.first_stamp);
-  const double interval_s = MedianOf(IntervalsOf(pairs));
+  const std::vector<double> intervals_s = IntervalsOf(pairs);
+  const double interval_s = intervals_s.empty() ? 0.0 : MedianOf(intervals_s);
   info.rate_hz = interval_s > 0.0 ? 1.0 / interval_s : 0.0;
   info.gaps = FindGaps(pairs);
   double sum_s = 0.0;
@@ -137,7 +130,7 @@ double DepthStatistics::valid_share() const {
 }
 
 double DepthStatistics::median_m() const {
-  return MedianOf(sample_m_);
+  return sample_m_.empty() ? 0.0 : static_cast<double>(MedianOf(sample_m_));
 }
 
 GroundTruthInfo InspectGroundTruth(const std::filesystem::path& path,

@@ -6,6 +6,7 @@
 #include "cslam/optim/residuals.h"
 #include "cslam/util/check.h"
 #include "cslam/util/options.h"
+#include "cslam/util/quantile.h"
 #include "cslam/vision/matching.h"
 
 #include <algorithm>
@@ -251,10 +252,7 @@ class Verifier {
       has_inlier[CellOf(observation.uv_px)] = true;
     }
     result_.num_cells = static_cast<int>(std::count(has_inlier.begin(), has_inlier.end(), true));
-    if (errors_px.empty()) return;
-    const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
-    std::nth_element(errors_px.begin(), middle, errors_px.end());
-    result_.median_error_px = *middle;
+    if (!errors_px.empty()) result_.median_error_px = MedianOf(std::move(errors_px));
   }
 
   std::size_t CellOf(const Eigen::Vector2d& uv) const {

@@ -4,6 +4,7 @@
 
 #include "cslam/objects/box_background.h"
 #include "cslam/util/options.h"
+#include "cslam/util/quantile.h"
 #include "cslam/vision/depth_thumbnail.h"
 
 #include <opencv2/imgproc.hpp>
@@ -39,12 +40,6 @@ cv::Rect ThumbnailRect(const DepthView& view, const Box& box, double margin) {
   const int y1 = static_cast<int>(std::ceil((box.y_max + my) / step));
   return cv::Rect(x0, y0, x1 - x0, y1 - y0) &
          cv::Rect(0, 0, view.depth_mm.cols, view.depth_mm.rows);
-}
-
-float Median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // The depth at which most of the box's middle lies; pixels near the centre count more, and of two
@@ -108,8 +103,9 @@ DepthRegion Summarise(const DepthView& view, cv::Mat mask) {
   region.mask = std::move(mask);
   const double step = view.step;
   region.box = {u_min * step, v_min * step, (u_max + 1) * step, (v_max + 1) * step};
-  region.median_m = Median(z);
-  region.centre_camera = {static_cast<double>(Median(x)), static_cast<double>(Median(y)),
+  region.median_m = MedianOf(std::move(z));
+  region.centre_camera = {static_cast<double>(MedianOf(std::move(x))),
+                          static_cast<double>(MedianOf(std::move(y))),
                           static_cast<double>(region.median_m)};
   return region;
 }
@@ -222,7 +218,7 @@ DepthRegion GrowRegion(const DepthView& view, const cv::Mat& seeds, const cv::Ma
     }
   }
   if (static_cast<int>(depths.size()) < kMinPixels) return {};
-  const float middle = Median(depths);
+  const float middle = MedianOf(std::move(depths));
   const auto reach = static_cast<float>(reach_m);
   const auto ratio = static_cast<float>(step_ratio);
 

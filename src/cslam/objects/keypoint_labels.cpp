@@ -4,6 +4,7 @@
 
 #include "cslam/util/check.h"
 #include "cslam/util/options.h"
+#include "cslam/util/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +25,6 @@ PixelRange RangeOf(const DepthView& view, const Box& box) {
           std::max(0, static_cast<int>(std::floor(box.y_min / step))),
           std::min(view.depth_mm.cols, static_cast<int>(std::ceil(box.x_max / step))),
           std::min(view.depth_mm.rows, static_cast<int>(std::ceil(box.y_max / step)))};
-}
-
-double Percentile(std::vector<float>& values, double share) {
-  const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + index, values.end());
-  return static_cast<double>(values[static_cast<std::size_t>(index)]);
 }
 
 // What the bands rule needs to know of a thing, worked out once.
@@ -153,10 +148,10 @@ BoxDepths MeasureBoxDepths(const DepthView& view, const Box& box, std::span<cons
   const auto count = static_cast<double>(all.size());
   result.mean_m = sum / count;
   result.sigma_m = std::sqrt(std::max(0.0, sum_squared / count - result.mean_m * result.mean_m));
-  result.nearest_m = Percentile(all, nearest_percentile);
-  result.median_m = Percentile(all, 0.5);
+  result.nearest_m = static_cast<double>(QuantileOf(all, nearest_percentile));
+  result.median_m = static_cast<double>(QuantileOf(all, 0.5));
   result.farthest_m = static_cast<double>(*std::max_element(all.begin(), all.end()));
-  if (!middle.empty()) result.centre_m = Percentile(middle, 0.5);
+  if (!middle.empty()) result.centre_m = static_cast<double>(QuantileOf(std::move(middle), 0.5));
   return result;
 }
 

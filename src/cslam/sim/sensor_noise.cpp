@@ -4,6 +4,7 @@
 
 #include "cslam/sim/noise_fields.h"
 #include "cslam/util/check.h"
+#include "cslam/util/quantile.h"
 
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
@@ -56,12 +57,6 @@ class EdgeDropout {
   }
 
  private:
-  static float QuantileOf(std::vector<float> values, double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::ranges::nth_element(values, values.begin() + rank);
-    return values[static_cast<std::size_t>(rank)];
-  }
-
   Rng rng_;
   double chance_;
   cv::Mat field_;

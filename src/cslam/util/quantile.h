@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/util/check.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace cslam {
+
+// The value of that rank if they were sorted. Move values in where they are of no more use.
+template <typename T>
+T ValueOfRank(std::vector<T> values, std::size_t rank) {
+  CSLAM_CHECK(rank < values.size(), "rank {} of {} values", rank, values.size());
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// The value that this share of the others lies below, not interpolated: 0 asks for the least, 0.5
+// for the lower of the two middle ones, 1 for the largest. There must be values.
+template <typename T>
+T QuantileOf(std::vector<T> values, double share) {
+  CSLAM_CHECK(!values.empty());
+  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  return ValueOfRank(std::move(values), rank);
+}
+
+// The upper of the two middle values. There must be values.
+template <typename T>
+T MedianOf(std::vector<T> values) {
+  const std::size_t rank = values.size() / 2;
+  return ValueOfRank(std::move(values), rank);
+}
+
+}  // namespace cslam
