@@ -4,28 +4,21 @@
 
 #include "cslam/map/map.h"
 #include "cslam/map/test_map.h"
+#include "cslam/objects/test_depth.h"
 
 #include <gtest/gtest.h>
 
 namespace cslam {
 namespace {
 
-constexpr int kNumPoints = 150;
+using test::SceneCamera;
 
-Camera MakeCamera() {
-  Camera camera;
-  camera.width = 640;
-  camera.height = 480;
-  camera.fx = camera.fy = 500.0;
-  camera.cx = 320.0;
-  camera.cy = 240.0;
-  return camera;
-}
+constexpr int kNumPoints = 150;
 
 // A map of one keyframe at the origin, and a frame that sees the same points from elsewhere.
 class PoseSearchTest : public testing::Test {
  protected:
-  PoseSearchTest() : map_(test::kLevelScales), search_(MakeCamera(), options_) {
+  PoseSearchTest() : map_(test::kLevelScales), search_(SceneCamera(), options_) {
     Rng rng(5);
     for (int i = 0; i < kNumPoints; ++i) {
       points_.emplace_back(rng.Uniform(-1.0, 1.0), rng.Uniform(-0.7, 0.7), rng.Uniform(2.0, 3.0));
@@ -50,8 +43,8 @@ class PoseSearchTest : public testing::Test {
     std::vector<test::Feature> features;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Eigen::Vector3d p_camera = T_world_camera.Inverse() * points_[i];
-      const Eigen::Vector2f uv = Project(MakeCamera(), p_camera).cast<float>();
-      const double disparity_px = 500.0 * options_.depth.baseline_m / p_camera.z();
+      const Eigen::Vector2f uv = Project(SceneCamera(), p_camera).cast<float>();
+      const double disparity_px = SceneCamera().fx * options_.depth.baseline_m / p_camera.z();
       features.push_back({.u = uv.x(),
                           .v = uv.y(),
                           .descriptor = looks_[i],
