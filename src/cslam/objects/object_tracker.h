@@ -64,10 +64,13 @@ class ObjectTracker {
   // Those of them that have a name, a surface in this frame and do not move.
   std::vector<ObjectSighting> Sightings() const;
 
+  // The newest frame's depth.
   const DepthView& view() const { return now_.view; }
+
   // From here on poses are in another world: positions are forgotten, things in view are not.
   void StartWorld();
 
+  // Forgets everything but the ids handed out.
   void Clear();
 
  private:

@@ -34,9 +34,10 @@ int CountMatches(const FrameMatches& matches, Landmark::Kind kind);
 // Takes those of held-back points out of matches. Returns them, kNone elsewhere.
 FrameMatches TakeHeldBack(FrameMatches& matches);
 
+struct PoseEstimate;
+
 // Puts those back whose reprojection agrees with the pose (chi2 gates of the options): they are
 // seen, though they had no say.
-struct PoseEstimate;
 void KeepAgreeing(const FrameMatches& held_back, const FrameFeatures& features,
                   const Camera& camera, double baseline_m, const MeasurementModel& model,
                   const PoseOptimizerOptions& options, PoseEstimate& estimate);

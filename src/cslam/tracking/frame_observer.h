@@ -45,6 +45,7 @@ class FrameObserver {
   // From here on poses are in another world: positions are forgotten, things in view are not.
   void StartWorld();
 
+  // Forgets everything but the ids handed out.
   void Clear();
 
  private:

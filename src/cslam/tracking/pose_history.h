@@ -24,7 +24,10 @@ class PoseHistory {
   // reference: invalid for the first keyframe of a map; the pose is then one in the world.
   void AddPending(KeyframeId id, KeyframeId reference, const Se3& T_reference_camera);
 
+  // The pose of the frame just tracked.
   void SetLast(KeyframeId reference, const Se3& T_reference_camera);
+
+  // No pose, nothing pending.
   void Clear();
 
   KeyframeId reference() const { return reference_; }
