@@ -27,8 +27,9 @@ constexpr RobotFigures kReplacingFigures{175.0, 15.49, 46.55, 40.0};
 // Nothing changes.
 Story MakeStaticStory(const Stage& stage, const StoryOptions& options);
 
-// An armchair with a bear on it stands before a plain wall, is looked at from all sides, is 1.5 m
-// further along the wall when the robot comes back, and is looked at in just the same way.
+// An armchair with a bear on it stands before a plain wall, is looked at from several sides, is its
+// own width further along the wall when the robot comes back from a long way round, and is looked
+// at in just the same way: drift over that way might explain where it is now.
 Story MakeOneChairStory(const Stage& stage, const StoryOptions& options);
 
 // A chair with a bear, an umbrella and a suitcase: first the chair and the umbrella move, then one
