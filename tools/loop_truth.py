@@ -26,6 +26,7 @@ TRUE_M, TRUE_DEG = 0.20, 10.0
 REVISIT_S, REVISIT_M, REVISIT_DEG = 5.0, 0.5, 20.0
 CLOSED_M, CLOSED_DEG = 0.05, 3.0
 REVISIT_STEP_S = 0.3
+SAME_TIME_S = 1e-4
 MISSED_BAR = 3
 
 
@@ -72,7 +73,8 @@ def read_trajectory(path):
 
 
 class Truth:
-    """The true pose at any time, interpolated; None where there is none within 50 ms."""
+    """The true pose at any time, interpolated; None where there is none then, nor one within 50 ms
+    on both sides."""
 
     def __init__(self, path):
         self.times, self.poses = read_trajectory(path)
@@ -80,6 +82,9 @@ class Truth:
     def at(self, t):
         i = bisect.bisect_left(self.times, t)
         before, after = max(i - 1, 0), min(i, len(self.times) - 1)
+        for i in (before, after):
+            if abs(self.times[i] - t) < SAME_TIME_S:
+                return self.poses[i]
         if max(t - self.times[before], self.times[after] - t) > 0.05:
             return None
         span = self.times[after] - self.times[before]
