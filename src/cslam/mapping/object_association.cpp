@@ -57,39 +57,12 @@ double UnionSizeM(const OrientedBox& box, std::span<const Eigen::Vector3f> point
   return largest;
 }
 
-// Of an object's surface, what is in this picture and stands where it is expected.
-struct StandingSamples {
-  int all = 0;
-  int standing = 0;
-  int inside = 0;  // of these, in the sighting's region
-
-  // It is in the picture, but elsewhere.
-  bool IsElsewhere() const {
-    constexpr double kMinVisible = 0.3;
-    constexpr double kMaxInside = 0.2;
-    return standing >= kMinVisible * all && inside < kMaxInside * standing;
-  }
-};
-
-StandingSamples CountStanding(const MapObject& object, const Se3& T_camera_object,
-                              const ObjectSighting& sighting, const DepthView& view,
-                              const ExpectedViewOptions& options) {
-  StandingSamples count;
-  count.all = static_cast<int>(object.surface->samples.size());
-  for (const Eigen::Vector3f& sample : object.surface->samples) {
-    const Eigen::Vector3d p = T_camera_object * sample.cast<double>();
-    if (p.z() < 0.1) continue;
-    const Eigen::Vector2d uv = Project(view.camera, p);
-    const int u = static_cast<int>(std::floor(uv.x() / view.step));
-    const int v = static_cast<int>(std::floor(uv.y() / view.step));
-    if (u < 0 || v < 0 || u >= view.depth_mm.cols || v >= view.depth_mm.rows) continue;
-    const double z = static_cast<double>(view.DepthM(u, v));
-    const double tolerance = options.tolerance_m + options.tolerance_per_m2 * p.z() * p.z();
-    if (z <= 0.0 || std::abs(z - p.z()) > tolerance) continue;
-    ++count.standing;
-    count.inside += sighting.region.mask.at<std::uint8_t>(v, u) != 0 ? 1 : 0;
-  }
-  return count;
+// It is in the picture, but elsewhere than the sighting.
+bool IsElsewhere(const StandingSurface& surface) {
+  constexpr double kMinVisible = 0.3;
+  constexpr double kMaxCovered = 0.2;
+  return surface.num_standing >= kMinVisible * surface.num_samples &&
+         surface.num_covered < kMaxCovered * surface.num_standing;
 }
 
 struct Likeness {
@@ -106,12 +79,12 @@ Likeness Compare(const MapView& map, const MapObject& object, const PlacedSighti
       std::max(classes.DistanceM(object.class_id), classes.DistanceM(sighting.sighting->class_id));
   if (distance_m > 2.0 * limit_m) return {};
   const Se3 T_camera_object = T_world_camera.Inverse() * T_world_object;
-  const StandingSamples standing =
-      CountStanding(object, T_camera_object, *sighting.sighting, view, options.view);
+  const StandingSurface standing = FindStanding(object.surface->samples, T_camera_object, view,
+                                                sighting.sighting->region.mask, options.view);
   const bool is_alike = classes.AreAlike(object.class_id, sighting.sighting->class_id);
   // One thing that the detector takes now for this, now for that: the very same surface.
   const bool may_be_same =
-      standing.standing > 0 && standing.inside >= options.same_surface * standing.standing;
+      standing.num_standing > 0 && standing.covered_share() >= options.same_surface;
   if (!is_alike && !may_be_same) return {};
   const auto points = Transformed(sighting.points_camera, T_camera_object.Inverse());
   const double overlap = Overlap(*object.surface, points, ReachM(*object.surface));
@@ -123,7 +96,7 @@ Likeness Compare(const MapView& map, const MapObject& object, const PlacedSighti
   const ExpectedView expected =
       LookAtPlace(object.surface->samples, T_camera_object, sampler, 0.0, options.view);
   if (expected.verdict == PlaceVerdict::kLookedThrough) return {};
-  if (standing.IsElsewhere()) return {};
+  if (IsElsewhere(standing)) return {};
   if (UnionSizeM(object.box, points) > options.max_union * limit_m) return {};
   return {overlap + 0.3 * nearness + 1e-3, false};
 }

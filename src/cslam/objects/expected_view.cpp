@@ -104,4 +104,25 @@ ExpectedView LookAtPlace(std::span<const Eigen::Vector3f> samples, const Se3& T_
   return view;
 }
 
+StandingSurface FindStanding(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
+                             const DepthView& view, const cv::Mat& region,
+                             const ExpectedViewOptions& options) {
+  StandingSurface surface;
+  surface.num_samples = static_cast<int>(samples.size());
+  for (const Eigen::Vector3f& sample : samples) {
+    const Eigen::Vector3d p = T_camera_samples * sample.cast<double>();
+    if (p.z() < 0.1) continue;
+    const Eigen::Vector2d uv = Project(view.camera, p);
+    const int u = static_cast<int>(std::floor(uv.x() / view.step));
+    const int v = static_cast<int>(std::floor(uv.y() / view.step));
+    if (u < 0 || v < 0 || u >= view.depth_mm.cols || v >= view.depth_mm.rows) continue;
+    const double z_m = static_cast<double>(view.DepthM(u, v));
+    const double tolerance_m = options.tolerance_m + options.tolerance_per_m2 * p.z() * p.z();
+    if (z_m <= 0.0 || std::abs(z_m - p.z()) > tolerance_m) continue;
+    ++surface.num_standing;
+    surface.num_covered += region.at<std::uint8_t>(v, u) != 0 ? 1 : 0;
+  }
+  return surface;
+}
+
 }  // namespace cslam

@@ -4,6 +4,7 @@
 
 #include "cslam/geometry/camera.h"
 #include "cslam/geometry/se3.h"
+#include "cslam/objects/depth_region.h"
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
@@ -66,5 +67,21 @@ struct ExpectedView {
 ExpectedView LookAtPlace(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
                          const DepthSampler& depth, double pose_sigma_m,
                          const ExpectedViewOptions& options);
+
+// Of a surface, what is in this picture and stands where it is expected.
+struct StandingSurface {
+  int num_samples = 0;
+  int num_standing = 0;
+  int num_covered = 0;  // of these, by a region
+
+  double covered_share() const {
+    return num_standing == 0 ? 0.0 : static_cast<double>(num_covered) / num_standing;
+  }
+};
+
+// region: CV_8UC1 of the view's size, non-zero inside.
+StandingSurface FindStanding(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
+                             const DepthView& view, const cv::Mat& region,
+                             const ExpectedViewOptions& options);
 
 }  // namespace cslam

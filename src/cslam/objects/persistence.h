@@ -17,7 +17,7 @@ struct PersistenceOptions {
   double p_through_there = 0.15;  // its place is looked through though it stands there
   double p_through_gone = 0.6;    // the same when it is gone
   double max_belief = 0.98;       // beliefs stay between this and its complement
-  double activate_at = 0.75;      // belief from which on its points are used ...
+  double activate_at = 0.94;      // belief from which on its points are used ...
   double deactivate_at = 0.55;    // ... and below which no longer
   double absent_at = 0.3;         // below, what was present is gone
   double erase_at = 0.1;          // below, a candidate never was

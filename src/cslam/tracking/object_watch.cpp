@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace cslam {
@@ -63,29 +64,66 @@ void ObjectWatch::Look(const WatchedFrame& frame, const MapView& map) {
   T_world_last_ = frame.T_world_camera;
   last_stamp_ = frame.stamp;
   if (turn_rate_dps > options_.max_turn_rate_dps || frame.view->empty()) return;
-  for (std::size_t i = 0; i < map.num_object_ids(); ++i) {
-    const MapObject& object = map.ObjectSlot(i);
-    if (object.IsAlive() && object.map == frame.map && object.surface) LookAt(object, frame, map);
-  }
+  std::vector<ViewedObject> viewed = ViewObjects(frame, map);
+  ShareSightings(frame, viewed);
+  for (const ViewedObject& one : viewed)
+    Judge(one, frame);
   LookForNew(frame, map);
 }
 
-// The nearest sighting that may be the object, by class and distance; only with detections that
-// are news.
-const ObjectSighting* ObjectWatch::FindSighting(const MapObject& object,
-                                                const Eigen::Vector3d& centroid_world,
-                                                const WatchedFrame& frame) const {
-  const ObjectSighting* nearest = nullptr;
-  double nearest_m = classes_.DistanceM(object.class_id);
-  for (const ObjectSighting& sighting : frame.sightings) {
-    if (!classes_.AreAlike(sighting.class_id, object.class_id)) continue;
-    const double distance_m =
-        (frame.T_world_camera * sighting.region.centre_camera - centroid_world).norm();
-    if (distance_m > nearest_m) continue;
-    nearest = &sighting;
-    nearest_m = distance_m;
+bool ObjectWatch::ViewedObject::MayBeThere() const {
+  return expected.through_share() < 0.5 &&
+         (object->state != ObjectState::kAbsent || expected.verdict == PlaceVerdict::kStanding);
+}
+
+std::vector<ObjectWatch::ViewedObject> ObjectWatch::ViewObjects(const WatchedFrame& frame,
+                                                                const MapView& map) const {
+  const double pose_sigma_m =
+      options_.pose_sigma_m / std::sqrt(static_cast<double>(std::max(1, frame.num_inliers)));
+  std::vector<ViewedObject> viewed;
+  for (std::size_t i = 0; i < map.num_object_ids(); ++i) {
+    const MapObject& object = map.ObjectSlot(i);
+    if (!object.IsAlive() || object.map != frame.map || !object.surface) continue;
+    const Se3 T_camera_object = frame.T_world_camera.Inverse() * map.T_world_object(object);
+    const Eigen::Vector3d centroid = T_camera_object * object.centroid;
+    if (centroid.z() < 0.1 || centroid.z() > options_.view.max_depth_m) continue;
+    const cv::Mat others = OthersThan(object.class_id, frame);
+    const DepthSampler sampler{&frame.view->depth_mm, frame.view->step, &frame.view->camera, false,
+                               &others};
+    viewed.push_back({&object, T_camera_object, centroid,
+                      LookAtPlace(object.surface->samples, T_camera_object, sampler, pose_sigma_m,
+                                  options_.view)});
   }
-  return nearest;
+  return viewed;
+}
+
+// Gives each sighting to one object of a class alike, within its distance: the one whose standing
+// surface the sighting covers most and whose centre is nearest. What a chair's sighting says of
+// the chair it does not say of something beside it that once passed for one.
+void ObjectWatch::ShareSightings(const WatchedFrame& frame,
+                                 std::vector<ViewedObject>& viewed) const {
+  std::vector<double> best_cost(viewed.size(), std::numeric_limits<double>::max());
+  for (const ObjectSighting& sighting : frame.sightings) {
+    std::optional<std::size_t> owner;
+    double least_cost = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < viewed.size(); ++i) {
+      ViewedObject& one = viewed[i];
+      if (!classes_.AreAlike(sighting.class_id, one.object->class_id)) continue;
+      const double limit_m = classes_.DistanceM(one.object->class_id);
+      const double distance_m = (sighting.region.centre_camera - one.centroid_camera).norm();
+      if (distance_m > limit_m || !one.MayBeThere()) continue;
+      const StandingSurface standing =
+          FindStanding(one.object->surface->samples, one.T_camera_object, *frame.view,
+                       sighting.region.mask, options_.view);
+      const double cost = distance_m / limit_m - standing.covered_share();
+      if (cost >= least_cost) continue;
+      least_cost = cost;
+      owner = i;
+    }
+    if (!owner || least_cost >= best_cost[*owner]) continue;
+    best_cost[*owner] = least_cost;
+    viewed[*owner].sighting = &sighting;
+  }
 }
 
 // What things of other kinds cover; empty if nothing.
@@ -98,41 +136,24 @@ cv::Mat ObjectWatch::OthersThan(int class_id, const WatchedFrame& frame) const {
   return others;
 }
 
-void ObjectWatch::LookAt(const MapObject& object, const WatchedFrame& frame, const MapView& map) {
-  const Se3 T_world_object = map.T_world_object(object);
-  const Se3 T_camera_object = frame.T_world_camera.Inverse() * T_world_object;
-  const Eigen::Vector3d centroid = T_camera_object * object.centroid;
-  if (centroid.z() < 0.1 || centroid.z() > options_.view.max_depth_m) return;
-
-  const cv::Mat others = OthersThan(object.class_id, frame);
-  const DepthSampler sampler{&frame.view->depth_mm, frame.view->step, &frame.view->camera, false,
-                             &others};
-  const double pose_sigma_m =
-      options_.pose_sigma_m / std::sqrt(static_cast<double>(std::max(1, frame.num_inliers)));
-  const ExpectedView expected =
-      LookAtPlace(object.surface->samples, T_camera_object, sampler, pose_sigma_m, options_.view);
+void ObjectWatch::Judge(const ViewedObject& viewed, const WatchedFrame& frame) {
+  const MapObject& object = *viewed.object;
   Watched& watched = watched_.try_emplace(object.id).first->second;
   watched.evidence.object = object.id;
   ObjectEvidence& evidence = watched.evidence;
-  const bool is_news = HasPassed(watched.last_view, frame.stamp, options_.view_interval_s);
+  if (!HasPassed(watched.last_view, frame.stamp, options_.view_interval_s)) return;
 
-  if (expected.verdict == PlaceVerdict::kLookedThrough) {
-    if (!is_news || object.state == ObjectState::kAbsent) return;
+  if (viewed.expected.verdict == PlaceVerdict::kLookedThrough) {
+    if (object.state == ObjectState::kAbsent) return;
     evidence.log_ratio += LookedThroughLogRatio(options_.belief);
     ++evidence.num_through;
     if (!evidence.first_through) evidence.first_through = frame.stamp;
     watched.last_view = frame.stamp;
     return;
   }
-  const Eigen::Vector3d centroid_world = T_world_object * object.centroid;
-  const ObjectSighting* sighting = FindSighting(object, centroid_world, frame);
-  const bool may_be_there =
-      expected.through_share() < 0.5 &&
-      (object.state != ObjectState::kAbsent || expected.verdict == PlaceVerdict::kStanding);
-  if (sighting != nullptr && may_be_there) {
-    if (watched.last_detection == sighting->detected || !is_news) return;
-    const double distance_m =
-        (frame.T_world_camera * sighting->region.centre_camera - centroid_world).norm();
+  if (const ObjectSighting* sighting = viewed.sighting) {
+    if (watched.last_detection == sighting->detected) return;
+    const double distance_m = (sighting->region.centre_camera - viewed.centroid_camera).norm();
     evidence.log_ratio += SeenLogRatio(distance_m / classes_.DistanceM(object.class_id),
                                        sighting->score, options_.belief);
     ++evidence.num_seen;
@@ -141,11 +162,10 @@ void ObjectWatch::LookAt(const MapObject& object, const WatchedFrame& frame, con
     watched.last_view = frame.stamp;
     return;
   }
-  const bool should_be_named = expected.verdict == PlaceVerdict::kStanding &&
-                               expected.num_outside == 0 &&
-                               centroid.z() < options_.max_miss_depth_m;
-  if (object.state == ObjectState::kCandidate && sighting == nullptr && should_be_named &&
-      has_new_detections_ && is_news) {
+  const bool should_be_named = viewed.expected.verdict == PlaceVerdict::kStanding &&
+                               viewed.expected.num_outside == 0 &&
+                               viewed.centroid_camera.z() < options_.max_miss_depth_m;
+  if (object.state == ObjectState::kCandidate && should_be_named && has_new_detections_) {
     evidence.log_ratio += MissedLogRatio(options_.belief);
     ++evidence.num_missed;
     watched.last_view = frame.stamp;

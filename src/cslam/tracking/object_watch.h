@@ -66,9 +66,20 @@ class ObjectWatch {
     std::optional<Stamp> last_detection;  // taken in
   };
 
-  void LookAt(const MapObject& object, const WatchedFrame& frame, const MapView& map);
-  const ObjectSighting* FindSighting(const MapObject& object, const Eigen::Vector3d& centroid_world,
-                                     const WatchedFrame& frame) const;
+  // What one frame shows of one object of the map.
+  struct ViewedObject {
+    const MapObject* object = nullptr;
+    Se3 T_camera_object;
+    Eigen::Vector3d centroid_camera = Eigen::Vector3d::Zero();  // m
+    ExpectedView expected;
+    const ObjectSighting* sighting = nullptr;  // of it, and of no other object
+
+    bool MayBeThere() const;
+  };
+
+  std::vector<ViewedObject> ViewObjects(const WatchedFrame& frame, const MapView& map) const;
+  void ShareSightings(const WatchedFrame& frame, std::vector<ViewedObject>& viewed) const;
+  void Judge(const ViewedObject& viewed, const WatchedFrame& frame);
   cv::Mat OthersThan(int class_id, const WatchedFrame& frame) const;
   void LookForNew(const WatchedFrame& frame, const MapView& map);
 
