@@ -29,8 +29,20 @@ Readings ReadAround(const cv::Mat& depth_mm, int u, int v) {
   return readings;
 }
 
+// Most of the place is hidden, like that of a chair behind an umbrella, but where the rest of it
+// should stick out one looks through without exception.
+bool IsRimLookedThrough(const ExpectedView& view, const ExpectedViewOptions& options) {
+  constexpr int kMinSamples = 8;
+  constexpr double kMinShare = 0.8;
+  return view.num_through >= kMinSamples &&
+         view.num_through >= options.min_rim_share * view.num_samples && view.num_standing == 0 &&
+         view.num_through >= kMinShare * view.num_visible() &&
+         view.num_hidden >= 0.5 * view.num_samples;
+}
+
 PlaceVerdict Judge(const ExpectedView& view, const ExpectedViewOptions& options) {
   const double visible = view.num_visible();
+  if (IsRimLookedThrough(view, options)) return PlaceVerdict::kLookedThrough;
   if (visible <= 0.0 || visible < options.min_visible_share * view.num_samples) {
     return PlaceVerdict::kUnobserved;
   }
@@ -53,6 +65,8 @@ void Describe(OptionList& list, ExpectedViewOptions& o) {
   list.Add("max_depth", o.max_depth_m, {0.5, 20.0}, "m", "Beyond, depth says nothing.");
   list.Add("min_visible", o.min_visible_share, {0.0, 1.0}, "",
            "Share of a surface that must be in view, with depth and not hidden.");
+  list.Add("min_rim", o.min_rim_share, {0.0, 1.0}, "",
+           "Share that suffices where something hides the rest, if all of it is looked through.");
   list.Add("min_through", o.min_through_share, {0.0, 1.0}, "",
            "Share of that which must be looked through for the place to be empty; some of what "
            "is stored may be floor or wall.");

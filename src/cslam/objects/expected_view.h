@@ -24,6 +24,7 @@ struct ExpectedViewOptions {
   double max_depth_m = 4.5;         // farther readings say nothing
   double min_visible_share = 0.4;   // of the samples, before anything is concluded
   double min_through_share = 0.6;   // of the visible ones: one looks through its place
+  double min_rim_share = 0.1;       // ... or only so many, if one looks through all of them
   double min_taken_through = 0.25;  // the same, where another thing stands on the rest
   double min_standing_share = 0.5;  // of the visible ones: its surface stands there
 };
