@@ -65,6 +65,21 @@ bool IsElsewhere(const StandingSurface& surface) {
          surface.num_covered < kMaxCovered * surface.num_standing;
 }
 
+// The larger of width and height, the outermost 5 % left out.
+double ExtentAcross(std::span<const Eigen::Vector3f> points_camera) {
+  double extent_m = 0.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    std::vector<float> values;
+    values.reserve(points_camera.size());
+    for (const Eigen::Vector3f& p : points_camera)
+      values.push_back(p[axis]);
+    std::sort(values.begin(), values.end());
+    const std::size_t cut = values.size() / 20;
+    extent_m = std::max(extent_m, double{values[values.size() - 1 - cut]} - double{values[cut]});
+  }
+  return extent_m;
+}
+
 struct Likeness {
   double score = 0.0;  // 0: another thing
   bool is_on_surface = false;
@@ -109,11 +124,14 @@ std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sight
                                            const MapObjectOptions& options) {
   std::vector<PlacedSighting> placed;
   for (const ObjectSighting* sighting : Candidates(sightings, classes)) {
-    PlacedSighting one{sighting, PointsOfRegion(view, sighting->region, kMaxPoints), {}};
+    PlacedSighting one;
+    one.sighting = sighting;
+    one.points_camera = PointsOfRegion(view, sighting->region, kMaxPoints);
     if (static_cast<int>(one.points_camera.size()) < options.min_voxels) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3f& p : one.points_camera)
       sum += p.cast<double>();
+    one.extent_m = ExtentAcross(one.points_camera);
     one.centroid_world = T_world_camera * (sum / static_cast<double>(one.points_camera.size()));
     placed.push_back(std::move(one));
   }

@@ -17,6 +17,7 @@ struct PlacedSighting {
   const ObjectSighting* sighting = nullptr;
   std::vector<Eigen::Vector3f> points_camera;  // of its surface, m
   Eigen::Vector3d centroid_world = Eigen::Vector3d::Zero();
+  double extent_m = 0.0;  // across the view
 };
 
 // Sightings that may become objects of the map: mapped classes, enough surface.

@@ -184,6 +184,10 @@ bool ChangeList::TakeOverReplacement(Map& map, const MapChange& removed) const {
 
 void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t session) const {
   const MapObject& object = *map.FindObject(id);
+  const auto is_told = [&](const MapChange& c) {
+    return c.new_object == id || (c.object == id && c.kind == MapChangeKind::kAdded);
+  };
+  if (std::any_of(map.changes().begin(), map.changes().end(), is_told)) return;
   const bool is_back = object.absent_since.has_value();
   const ViewsBefore before =
       is_back ? ViewsBefore{} : LookBack(map, object, camera_, session, options_.view);

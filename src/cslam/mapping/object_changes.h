@@ -27,7 +27,8 @@ class ChangeList {
   // The object's place was seen without it.
   void OnGone(Map& map, ObjectId object, Stamp now, int num_views, std::uint32_t session) const;
 
-  // The object is believed in for the first time, or again after it was gone.
+  // The object is believed in for the first time, or again after it was gone, or is known better
+  // since. Does nothing if its arrival is told already.
   void OnArrived(Map& map, ObjectId object, Stamp now, std::uint32_t session) const;
 
   // Another thing stands where the object stood.

@@ -96,15 +96,17 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
       AssociateSightings(map, map_id_, sightings, view, T_world_camera, classes_, options_.objects);
   std::vector<ObjectId> seen;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    if (!known[i] && IsOfKnownTrack(map, sightings[i])) continue;
+    if (!known[i] && (IsOfKnownTrack(map, sightings[i]) || IsPiece(sightings[i]))) continue;
     const ObjectId id = known[i] ? *known[i] : AddObject(map, proposal, sightings[i]);
     if (known[i]) Renew(map, id, proposal, sightings[i]);
     report.num_new += known[i] ? 0 : 1;
     objects_of_tracks_[sightings[i].sighting->track] = id;
     seen.push_back(id);
   }
-  for (const ObjectId id : seen)
+  for (const ObjectId id : seen) {
+    JudgeArrival(map, id, proposal);
     report.num_changed += DisplaceOthers(map, id, proposal);
+  }
   AssignKeypoints(map, proposal.id);
   report.num_changed += MergeDoubles(map, seen, proposal.data->stamp);
   return report;
@@ -118,6 +120,10 @@ bool ObjectLayer::IsOfKnownTrack(const Map& map, const PlacedSighting& sighting)
       known == objects_of_tracks_.end() ? nullptr : map.FindObject(known->second);
   return object != nullptr && object->map == map_id_ && object->state != ObjectState::kAbsent &&
          object->num_sightings > 1;
+}
+
+bool ObjectLayer::IsPiece(const PlacedSighting& sighting) const {
+  return sighting.extent_m < classes_.MinExtentM(sighting.sighting->class_id);
 }
 
 ObjectId ObjectLayer::AddObject(Map& map, const KeyframeProposal& proposal,
@@ -293,6 +299,18 @@ bool ObjectLayer::Decide(Map& map, ObjectId id, const KeyframeProposal& proposal
     return true;
   }
   return false;
+}
+
+// At first sight little of a thing is known, and little of it may be right. So whether it is new
+// here is asked again until it has been seen well.
+void ObjectLayer::JudgeArrival(Map& map, ObjectId id, const KeyframeProposal& proposal) const {
+  const MapObject& object = *map.FindObject(id);
+  if (object.state != ObjectState::kPresent || object.absent_since || object.num_sightings < 2 ||
+      object.num_sightings > options_.objects.settled_sightings) {
+    return;
+  }
+  changes_.OnArrived(map, id, proposal.data->stamp,
+                     static_cast<std::uint32_t>(map.SessionOf(proposal.id)));
 }
 
 void ObjectLayer::Activate(Map& map, ObjectId id) const {

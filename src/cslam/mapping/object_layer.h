@@ -45,6 +45,7 @@ class ObjectLayer {
   using TrackObjects = std::map<TrackId, ObjectId>;
 
   bool IsOfKnownTrack(const Map& map, const PlacedSighting& sighting) const;
+  bool IsPiece(const PlacedSighting& sighting) const;
   ObjectId AddObject(Map& map, const KeyframeProposal& proposal,
                      const PlacedSighting& sighting) const;
   void Renew(Map& map, ObjectId id, const KeyframeProposal& proposal,
@@ -57,6 +58,7 @@ class ObjectLayer {
   bool MayUpdate(const Map& map, const MapObject& object, KeyframeId keyframe) const;
   bool Decide(Map& map, ObjectId id, const KeyframeProposal& proposal,
               const ObjectEvidence& evidence) const;
+  void JudgeArrival(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   void Activate(Map& map, ObjectId id) const;
   void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   double ShareInside(const Map& map, const MapObject& object, const MapObject& other) const;

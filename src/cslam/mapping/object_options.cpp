@@ -38,6 +38,8 @@ void Describe(OptionList& list, MapObjectOptions& o) {
            "How far from a vanished thing another one replaces it.");
   list.Add("min_views_before", o.min_views_before, {1, 1000}, "keyframes",
            "Earlier keyframes that saw a place empty before what stands there counts as added.");
+  list.Add("settled_sightings", o.settled_sightings, {1, 1000}, "keyframes",
+           "Until so many have seen a thing, whether it is new where it stands is asked anew.");
   list.Add("min_displaced", o.min_displaced, {0.0, 1.0}, "",
            "Share of a thing's surface in the box of one that came later: two cannot be there.");
   list.Add("min_displacing_views", o.min_displacing_views, {1, 1000}, "keyframes",

@@ -35,10 +35,11 @@ struct MapObjectOptions {
   double merge_overlap = 0.4;
   double max_union = 1.4;
   int min_voxels = 4;
-  double min_likeness = 0.7;
+  double min_likeness = 0.5;
   double max_size_ratio = 2.0;
   double replace_distance_m = 0.6;
   int min_views_before = 2;
+  int settled_sightings = 8;
   double min_displaced = 0.5;
   int min_displacing_views = 3;
   ObjectClassOptions classes;

@@ -37,12 +37,15 @@ void Describe(OptionList& list, ObjectClassOptions& o) {
            "between.");
   list.Add("default_distance", o.default_distance_m, {0.01, 10.0}, "m",
            "The same for all other classes.");
+  list.Add("min_extent", o.min_extent, {0.0, 1.0}, "",
+           "What shows less than this share of its distance, across the view, is a piece of "
+           "something half hidden: no new object. Only for classes in 'distances'.");
   list.Add("alike", o.alike, "Classes that detectors take for one another: chair+couch ...");
   list.Add("left_out", o.left_out, "Classes that never become objects of the map.");
 }
 
 ObjectClasses::ObjectClasses(const ObjectClassOptions& options)
-    : default_distance_m_(options.default_distance_m) {
+    : default_distance_m_(options.default_distance_m), min_extent_(options.min_extent) {
   for (const std::string& entry : Split(options.distances, ' ')) {
     const auto parts = Split(entry, '=');
     std::istringstream number(parts.size() == 2 ? parts[1] : "");
@@ -65,6 +68,11 @@ ObjectClasses::ObjectClasses(const ObjectClassOptions& options)
 double ObjectClasses::DistanceM(int class_id) const {
   const auto it = distances_m_.find(class_id);
   return it == distances_m_.end() ? default_distance_m_ : it->second;
+}
+
+double ObjectClasses::MinExtentM(int class_id) const {
+  const auto it = distances_m_.find(class_id);
+  return it == distances_m_.end() ? 0.0 : min_extent_ * it->second;
 }
 
 bool ObjectClasses::AreAlike(int a, int b) const {

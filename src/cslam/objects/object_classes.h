@@ -15,8 +15,10 @@ struct ObjectClassOptions {
   std::string distances =
       "bottle=0.2 wine_glass=0.2 cup=0.2 bowl=0.25 vase=0.3 book=0.3 mouse=0.2 keyboard=0.4 "
       "cell_phone=0.2 remote=0.2 clock=0.3 tv=0.5 laptop=0.5 teddy_bear=0.5 potted_plant=0.6 "
-      "chair=1.0 couch=1.5 bed=2.0 dining_table=1.5 refrigerator=1.0";
+      "suitcase=0.6 backpack=0.6 umbrella=0.6 chair=1.0 couch=1.5 bed=2.0 dining_table=1.5 "
+      "refrigerator=1.0";
   double default_distance_m = 0.6;
+  double min_extent = 0.3;
   // Names that detectors use for one another.
   std::string alike =
       "chair+couch tv+laptop cup+bowl+vase bottle+wine_glass suitcase+backpack+handbag "
@@ -35,6 +37,10 @@ class ObjectClasses {
   // How far the centres of two sightings of one thing may lie apart (m).
   double DistanceM(int class_id) const;
 
+  // What shows less than so many metres of itself is a piece of such a thing at best; 0 for classes
+  // without a distance of their own.
+  double MinExtentM(int class_id) const;
+
   // One class, or names for one another.
   bool AreAlike(int a, int b) const;
 
@@ -43,6 +49,7 @@ class ObjectClasses {
 
  private:
   double default_distance_m_;
+  double min_extent_;
   std::map<int, double> distances_m_;
   std::map<int, unsigned> groups_;  // bit i: member of group i
   std::map<int, bool> left_out_;
