@@ -217,6 +217,10 @@ void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t sessi
     MapChange joined = change;
     if (!Join(map, joined, changes[i])) continue;
     if (joined.kind == MapChangeKind::kReplaced && !StandsInside(map, object, *gone)) continue;
+    if (joined.kind == MapChangeKind::kMoved &&
+        ColourLikeness(object.colours, gone->colours) < options_.sure_likeness) {
+      continue;
+    }
     changes[i] = joined;
     map.SetChanges(std::move(changes));
     return;

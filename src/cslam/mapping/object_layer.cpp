@@ -359,6 +359,21 @@ double ObjectLayer::ShareInside(const Map& map, const MapObject& object,
          static_cast<double>(std::max<std::size_t>(1, object.surface->samples.size()));
 }
 
+// Whether some of it is still to be seen in the keyframe.
+bool ObjectLayer::IsSeenStanding(const Map& map, const MapObject& object,
+                                 const KeyframeProposal& proposal) const {
+  constexpr double kMaxStanding = 0.05;  // of the samples
+  const DepthView& view = proposal.objects.view;
+  if (view.empty()) return false;
+  const Se3 T_camera_object =
+      map.FindKeyframe(proposal.id)->T_world_camera.Inverse() * map.T_world_object(object);
+  const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false};
+  const ExpectedView seen =
+      LookAtPlace(object.surface->samples, T_camera_object, sampler, 0.0, options_.objects.view);
+  return seen.num_standing > kMaxStanding * seen.num_samples &&
+         seen.num_standing > seen.num_through;
+}
+
 // What stood where a new thing stands, and has not been seen since, is gone. Large things first:
 // of a chair with a bear on it the chair was replaced.
 int ObjectLayer::DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& proposal) const {
@@ -368,6 +383,7 @@ int ObjectLayer::DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& p
     return 0;
   }
   std::vector<std::pair<double, ObjectId>> displaced;
+  std::vector<ObjectId> still_there;
   for (const ObjectId other_id : map.Objects()) {
     const MapObject& other = *map.FindObject(other_id);
     if (other_id == id || other.map != comer.map || other.state != ObjectState::kPresent ||
@@ -376,7 +392,16 @@ int ObjectLayer::DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& p
       continue;
     }
     if (ShareInside(map, other, comer) < options_.objects.min_displaced) continue;
+    if (IsSeenStanding(map, other, proposal)) {
+      still_there.push_back(other_id);
+      continue;
+    }
     displaced.emplace_back(-other.box.size_m.prod(), other_id);
+  }
+  for (const ObjectId other_id : still_there) {
+    MapObject other = *map.FindObject(other_id);
+    other.last_keyframe = proposal.id;
+    map.SetObject(std::move(other));
   }
   std::sort(displaced.begin(), displaced.end());
   for (const auto& [volume, other_id] : displaced) {

@@ -62,6 +62,8 @@ class ObjectLayer {
   void Activate(Map& map, ObjectId id) const;
   void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   double ShareInside(const Map& map, const MapObject& object, const MapObject& other) const;
+  bool IsSeenStanding(const Map& map, const MapObject& object,
+                      const KeyframeProposal& proposal) const;
   int DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   int MergeDoubles(Map& map, std::span<const ObjectId> seen, Stamp now);
   Eigen::Vector3d UpWorld() const;

@@ -32,6 +32,9 @@ void Describe(OptionList& list, MapObjectOptions& o) {
   list.Add("min_voxels", o.min_voxels, {1, 10'000}, "cells", "Less surface makes no object.");
   list.Add("min_likeness", o.min_likeness, {0.0, 1.0}, "",
            "Common share of the colours of one thing seen in two places.");
+  list.Add("sure_likeness", o.sure_likeness, {0.0, 1.0}, "",
+           "The same where nobody had seen the new place without it: it may have stood there all "
+           "along.");
   list.Add("max_size_ratio", o.max_size_ratio, {1.0, 10.0}, "",
            "How much larger one may seem than the other.");
   list.Add("replace_distance", o.replace_distance_m, {0.0, 5.0}, "m",

@@ -36,6 +36,7 @@ struct MapObjectOptions {
   double max_union = 1.4;
   int min_voxels = 4;
   double min_likeness = 0.5;
+  double sure_likeness = 0.75;
   double max_size_ratio = 2.0;
   double replace_distance_m = 0.6;
   int min_views_before = 2;

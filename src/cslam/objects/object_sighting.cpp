@@ -15,6 +15,16 @@ constexpr int kColouredFrom = 40;  // saturation (0 to 255) below which a hue me
 
 }  // namespace
 
+cv::Mat CoveredByOthers(std::span<const ObjectSighting> sightings, int class_id,
+                        const ObjectClasses& classes) {
+  cv::Mat covered;
+  for (const ObjectSighting& sighting : sightings) {
+    if (classes.AreAlike(sighting.class_id, class_id)) continue;
+    covered = covered.empty() ? sighting.region.mask : cv::Mat(covered | sighting.region.mask);
+  }
+  return covered;
+}
+
 ColourHistogram ColoursOf(const cv::Mat& bgr, const DepthRegion& region) {
   ColourHistogram histogram{};
   if (bgr.empty() || region.empty()) return histogram;

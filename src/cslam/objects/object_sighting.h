@@ -4,9 +4,14 @@
 
 #include "cslam/map/map_object.h"
 #include "cslam/objects/depth_region.h"
+#include "cslam/objects/object_classes.h"
 #include "cslam/util/id.h"
 #include "cslam/util/stamp.h"
 #include "cslam/vision/box.h"
+
+#include <opencv2/core/mat.hpp>
+
+#include <span>
 
 namespace cslam {
 
@@ -21,6 +26,10 @@ struct ObjectSighting {
   Stamp detected;  // the newest frame a detector saw it in; carried on since
   ColourHistogram colours{};
 };
+
+// What things of other kinds cover (CV_8UC1 of the view's size); empty if nothing.
+cv::Mat CoveredByOthers(std::span<const ObjectSighting> sightings, int class_id,
+                        const ObjectClasses& classes);
 
 // Of the pixels of bgr (H x W, CV_8UC3, as recorded) that region covers; all 0 without colours.
 // Lens distortion is neglected.

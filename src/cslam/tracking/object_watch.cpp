@@ -87,7 +87,7 @@ std::vector<ObjectWatch::ViewedObject> ObjectWatch::ViewObjects(const WatchedFra
     const Se3 T_camera_object = frame.T_world_camera.Inverse() * map.T_world_object(object);
     const Eigen::Vector3d centroid = T_camera_object * object.centroid;
     if (centroid.z() < 0.1 || centroid.z() > options_.view.max_depth_m) continue;
-    const cv::Mat others = OthersThan(object.class_id, frame);
+    const cv::Mat others = CoveredByOthers(frame.sightings, object.class_id, classes_);
     const DepthSampler sampler{&frame.view->depth_mm, frame.view->step, &frame.view->camera, false,
                                &others};
     viewed.push_back({&object, T_camera_object, centroid,
@@ -124,16 +124,6 @@ void ObjectWatch::ShareSightings(const WatchedFrame& frame,
     best_cost[*owner] = least_cost;
     viewed[*owner].sighting = &sighting;
   }
-}
-
-// What things of other kinds cover; empty if nothing.
-cv::Mat ObjectWatch::OthersThan(int class_id, const WatchedFrame& frame) const {
-  cv::Mat others;
-  for (const ObjectSighting& sighting : frame.sightings) {
-    if (classes_.AreAlike(sighting.class_id, class_id)) continue;
-    others = others.empty() ? sighting.region.mask : cv::Mat(others | sighting.region.mask);
-  }
-  return others;
 }
 
 void ObjectWatch::Judge(const ViewedObject& viewed, const WatchedFrame& frame) {

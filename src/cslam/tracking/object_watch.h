@@ -80,7 +80,6 @@ class ObjectWatch {
   std::vector<ViewedObject> ViewObjects(const WatchedFrame& frame, const MapView& map) const;
   void ShareSightings(const WatchedFrame& frame, std::vector<ViewedObject>& viewed) const;
   void Judge(const ViewedObject& viewed, const WatchedFrame& frame);
-  cv::Mat OthersThan(int class_id, const WatchedFrame& frame) const;
   void LookForNew(const WatchedFrame& frame, const MapView& map);
 
   const ObjectWatchOptions options_;
