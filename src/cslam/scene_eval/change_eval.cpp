@@ -7,6 +7,7 @@
 #include "cslam/util/check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cslam {
@@ -81,6 +82,7 @@ class ChangeJudge {
   }
 
   ChangeEvaluation Judge() {
+    SplitWhereTold();
     Match();
     for (JudgedReport& report : evaluation_.reports) {
       if (report.verdict != ChangeVerdict::kMatched) report.verdict = VerdictOnRest(report);
@@ -95,6 +97,33 @@ class ChangeJudge {
     const bool is_replaced = report.kind == ChangeKind::kReplaced;
     return options_.classes.contains(report.class_id) &&
            (!is_replaced || options_.classes.contains(report.new_class_id));
+  }
+
+  bool IsTold(const KnowableChange& truth) const {
+    return std::any_of(evaluation_.reports.begin(), evaluation_.reports.end(), [&](const auto& r) {
+      return Agrees(truth, r.report, options_) && !IsEarly(truth, r);
+    });
+  }
+
+  // Several changes that nobody had to tell apart, but this run did.
+  void SplitWhereTold() {
+    std::vector<JudgedChange> split;
+    for (JudgedChange& change : evaluation_.changes) {
+      const std::vector<KnowableChange> parts = change.truth.parts;
+      const bool is_split =
+          change.truth.counts() && !parts.empty() &&
+          std::all_of(parts.begin(), parts.end(), [&](const auto& p) { return IsTold(p); });
+      if (!is_split) split.push_back(std::move(change));
+      for (const KnowableChange& part : is_split ? parts : std::vector<KnowableChange>{})
+        split.push_back({.truth = part});
+    }
+    evaluation_.changes = std::move(split);
+  }
+
+  bool IsAboutAnyOf(const KnowableChange& truth, const ReportedChange& report) const {
+    return IsAbout(truth, report, options_) ||
+           std::any_of(truth.parts.begin(), truth.parts.end(),
+                       [&](const KnowableChange& p) { return IsAbout(p, report, options_); });
   }
 
   static bool IsEarly(const KnowableChange& truth, const JudgedReport& report) {
@@ -119,7 +148,8 @@ class ChangeJudge {
       JudgedReport& report = evaluation_.reports[*partners[i]];
       report.verdict = ChangeVerdict::kMatched;
       change.report = partners[i];
-      change.delay_s = std::max(0.0, report.time_s - change.truth.known_s());
+      if (std::isfinite(change.truth.known_s()))
+        change.delay_s = std::max(0.0, report.time_s - change.truth.known_s());
       if (change.truth.from && change.truth.old_view_s)
         change.delay_from_old_place_s = report.time_s - *change.truth.old_view_s;
     }
@@ -127,7 +157,7 @@ class ChangeJudge {
 
   ChangeVerdict VerdictOnRest(const JudgedReport& report) const {
     for (const JudgedChange& change : evaluation_.changes) {
-      if (!change.truth.counts() && IsAbout(change.truth, report.report, options_))
+      if (!change.truth.counts() && IsAboutAnyOf(change.truth, report.report))
         return ChangeVerdict::kNotJudged;
     }
     for (const JudgedChange& change : evaluation_.changes) {

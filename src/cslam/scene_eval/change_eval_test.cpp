@@ -146,6 +146,11 @@ TEST(EvaluateChanges, JoinsMovesBetweenWhichNobodyLooked) {
   ASSERT_EQ(evaluation.changes.size(), 1U);
   EXPECT_EQ(evaluation.changes[0].truth.num_merged, 2);
   EXPECT_EQ(evaluation.all.F1(), 1.0);
+
+  const auto first = Told(ChangeKind::kMoved, kLeft, middle, 3.6);
+  const auto second = Told(ChangeKind::kMoved, middle, kRight, 6.0);
+  EXPECT_EQ(Evaluate(world, {first, second}).all.F1(), 1.0) << "a glimpse was enough";
+  EXPECT_EQ(Evaluate(world, {first}).all.num_matched, 0) << "half of it is not the whole";
 }
 
 TEST(EvaluateChanges, KeepsMovesApartBetweenWhichTheCameraLooked) {
@@ -166,7 +171,11 @@ TEST(EvaluateChanges, ForgetsWhatIsBackBeforeAnybodyLooked) {
                  {.instance = 1, .from_s = kChangeS, .center = kLeft}};
   world.changes = {True(ChangeKind::kMoved, 1, kLeft, kRight, 3.5),
                    True(ChangeKind::kMoved, 1, kRight, kLeft)};
-  EXPECT_TRUE(Evaluate(world, {}).changes.empty());
+  const ChangeEvaluation silent = Evaluate(world, {});
+  ASSERT_EQ(silent.changes.size(), 1U);
+  EXPECT_FALSE(silent.changes[0].truth.counts());
+  const ChangeEvaluation told = Evaluate(world, {Told(ChangeKind::kMoved, kLeft, kRight, 3.6)});
+  EXPECT_EQ(told.reports[0].verdict, ChangeVerdict::kNotJudged) << "true, if nobody had to know";
 }
 
 TEST(EvaluateChanges, KnowsRemovalsAdditionsAndReplacements) {

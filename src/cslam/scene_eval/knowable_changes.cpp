@@ -124,8 +124,7 @@ class ChangeSurvey {
         continue;
       }
       KnowableChange both = Join(merged.back(), change);
-      merged.pop_back();
-      if (!CancelsOut(both)) merged.push_back(std::move(both));
+      merged.back() = std::move(both);
     }
     return merged;
   }
@@ -140,6 +139,8 @@ class ChangeSurvey {
     both.change.is_carried_in_view |= a.change.is_carried_in_view;
     both.left_s = a.left_s;
     both.num_merged += a.num_merged;
+    both.parts = a.parts.empty() ? std::vector{a} : a.parts;
+    both.parts.push_back(b);
     if (both.change.from && both.change.to) both.change.kind = ChangeKind::kMoved;
     if (both.change.from && !both.change.to) both.change.kind = ChangeKind::kRemoved;
     if (!both.change.from && both.change.to) both.change.kind = ChangeKind::kAdded;
@@ -209,10 +210,21 @@ class ChangeSurvey {
       if (change.change.from) change.from = queries[3 * i].box.T_world_box.translation;
       if (change.change.to) change.to = queries[3 * i + 2].box.T_world_box.translation;
       change.why_not = WhyNot(change, views[3 * i].has_value());
+      for (KnowableChange& part : change.parts)
+        Place(part);
     }
   }
 
+  // Of a change that nobody had to notice on its own; who did must have seen some of it.
+  void Place(KnowableChange& part) const {
+    const TrueObject& object = ObjectOf(part.change.instance);
+    if (part.change.from) part.from = BoxOf(object, *part.change.from).T_world_box.translation;
+    if (part.change.to) part.to = BoxOf(object, *part.change.to).T_world_box.translation;
+    part.first_glimpse_s = part.left_s;
+  }
+
   static std::string WhyNot(const KnowableChange& change, bool was_seen_before) {
+    if (change.num_merged > 1 && CancelsOut(change)) return "back before anybody looked";
     if (!was_seen_before) return "place not clearly seen before";
     const ChangeKind kind = change.change.kind;
     const bool needs_old = kind == ChangeKind::kRemoved || kind == ChangeKind::kMoved;

@@ -30,6 +30,9 @@ struct KnowableChange {
   // First time that any part worth speaking of was in view: of the old place, or of the thing at
   // the new one. Nobody can tell of the change before.
   std::optional<double> first_glimpse_s = {};
+  // If num_merged > 1, what it stands for, in order. Who tells all of them is right as well: less
+  // than a clear view was enough.
+  std::vector<KnowableChange> parts = {};
   // Why nobody could know of it; empty: it counts.
   std::string why_not = {};
 
@@ -39,9 +42,9 @@ struct KnowableChange {
 
 // Changes of the classes asked for (of a replaced thing and what came both) from start_s to end_s,
 // in order of time. Several changes of one thing between which nobody looked become one; if they
-// cancel out, none. One that counts was seen before (an added thing's place without it) and its
-// places are clearly seen afterwards: the old one of a removal, the new one of an addition and of a
-// replacement, both of a move.
+// cancel out, one that does not count. One that counts was seen before (an added thing's place
+// without it) and its places are clearly seen afterwards: the old one of a removal, the new one of
+// an addition and of a replacement, both of a move.
 std::vector<KnowableChange> KnowableChanges(const SceneTruth& truth, double start_s, double end_s,
                                             const SceneEvalOptions& options);
 
