@@ -58,4 +58,16 @@ double BeliefOf(const MapObject& object) {
   return 1.0 / (1.0 + std::exp(-object.log_odds));
 }
 
+void NoteBelief(MapObject& object, Stamp now, BeliefCause cause) {
+  const auto belief = static_cast<float>(BeliefOf(object));
+  if (!object.history.empty() && object.history.back().belief == belief &&
+      object.history.back().cause == cause) {
+    object.history.back().stamp = now;
+    return;
+  }
+  constexpr std::size_t kMaxHistory = 500;
+  if (object.history.size() >= kMaxHistory) object.history.erase(object.history.begin() + 1);
+  object.history.push_back({now, belief, cause});
+}
+
 }  // namespace cslam

@@ -113,6 +113,9 @@ struct MapObject {
 
 double BeliefOf(const MapObject& object);  // 0 to 1
 
+// Adds the present belief to the history, which keeps its first step and the newest ones.
+void NoteBelief(MapObject& object, Stamp now, BeliefCause cause);
+
 enum class MapChangeKind : std::uint8_t { kRemoved, kAdded, kMoved, kReplaced };
 const char* ToString(MapChangeKind kind);
 

@@ -5,6 +5,7 @@
 #include "cslam/mapping/mapper_options.h"
 #include "cslam/mapping/object_association.h"
 #include "cslam/mapping/object_changes.h"
+#include "cslam/mapping/object_growth.h"
 #include "cslam/messages/messages.h"
 #include "cslam/vision/measurement_model.h"
 
@@ -46,24 +47,12 @@ class ObjectLayer {
 
   bool IsOfKnownTrack(const Map& map, const PlacedSighting& sighting) const;
   bool IsPiece(const PlacedSighting& sighting) const;
-  ObjectId AddObject(Map& map, const KeyframeProposal& proposal,
-                     const PlacedSighting& sighting) const;
-  void Renew(Map& map, ObjectId id, const KeyframeProposal& proposal,
-             const PlacedSighting& sighting) const;
-  void Measure(const Map& map, MapObject& object) const;
-  void MeasureByPoints(const Map& map, MapObject& object) const;
-  void AssignKeypoints(Map& map, KeyframeId keyframe) const;
-  bool ShouldBelong(const Map& map, const MapPoint& point, ObjectId object) const;
   int TakeEvidence(Map& map, const KeyframeProposal& proposal) const;
   bool MayUpdate(const Map& map, const MapObject& object, KeyframeId keyframe) const;
   bool Decide(Map& map, ObjectId id, const KeyframeProposal& proposal,
               const ObjectEvidence& evidence) const;
   void JudgeArrival(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   void Activate(Map& map, ObjectId id) const;
-  void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
-  double ShareInside(const Map& map, const MapObject& object, const MapObject& other) const;
-  bool IsSeenStanding(const Map& map, const MapObject& object,
-                      const KeyframeProposal& proposal) const;
   int DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   int MergeDoubles(Map& map, std::span<const ObjectId> seen, Stamp now);
   Eigen::Vector3d UpWorld() const;
@@ -74,7 +63,7 @@ class ObjectLayer {
   const MeasurementModel model_;
   const ObjectClasses classes_;
   const BeliefUpdate belief_update_;
-  const ExtentSource extent_source_;
+  const ObjectGrowth growth_;
   const ChangeList changes_;
 
   TrackObjects objects_of_tracks_;           // as seen last

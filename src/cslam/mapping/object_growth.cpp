@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cslam/mapping/object_growth.h"
+
+#include "cslam/mapping/object_geometry.h"
+
+#include <algorithm>
+
+namespace cslam {
+namespace {
+
+// Small things need small cells.
+double VoxelM(double class_distance_m, const MapObjectOptions& options) {
+  return std::min(options.voxel_m, std::max(0.01, 0.05 * class_distance_m));
+}
+
+void Vote(MapObject& object, const ObjectSighting& sighting) {
+  const auto class_id = static_cast<std::int16_t>(sighting.class_id);
+  auto vote = std::find_if(object.votes.begin(), object.votes.end(),
+                           [&](const auto& v) { return v.class_id == class_id; });
+  if (vote == object.votes.end()) vote = object.votes.insert(vote, {class_id, 0.0F});
+  vote->weight += static_cast<float>(sighting.score);
+  std::stable_sort(object.votes.begin(), object.votes.end(),
+                   [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  object.class_id = object.votes.front().class_id;
+}
+
+void MixColours(MapObject& object, const ColourHistogram& colours) {
+  const float share = 1.0F / static_cast<float>(object.num_sightings + 1);
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    object.colours[i] += share * (colours[i] - object.colours[i]);
+}
+
+// The paper's extent.
+void MeasureByPoints(const Map& map, MapObject& object) {
+  std::vector<Eigen::Vector3d> points;
+  for (const PointId id : map.PointsOfObject(object.id))
+    points.push_back(map.FindPoint(id)->p_world);
+  if (points.empty()) return;
+  const Se3 T_object_world = map.T_world_object(object).Inverse();
+  const Eigen::AlignedBox3d extent = ExtentOfPoints(points);
+  object.centroid = T_object_world * CentroidOfPoints(points);
+  object.box.center = T_object_world * extent.center().eval();
+  object.box.size_m = extent.sizes();
+  object.box.rotation = T_object_world.rotation;
+}
+
+}  // namespace
+
+ObjectGrowth::ObjectGrowth(const MapObjectOptions& options, const ObjectClasses& classes)
+    : options_(options), classes_(classes), extent_source_(ExtentSourceOf(options)) {}
+
+MapObject ObjectGrowth::Begin(const Map& map, MapId map_id, const KeyframeProposal& proposal,
+                              const PlacedSighting& sighting) const {
+  MapObject object;
+  object.map = map_id;
+  object.class_id = sighting.sighting->class_id;
+  object.reference = proposal.id;
+  ObjectSurface surface;
+  surface.voxel_m = VoxelM(classes_.DistanceM(object.class_id), options_);
+  object.surface = std::make_shared<const ObjectSurface>(std::move(surface));
+  object.first_box = sighting.sighting->box;
+  object.first_keyframe = proposal.id;
+  object.arrived_keyframe = proposal.id;
+  object.first_seen = sighting.sighting->detected;
+  object.first_session = static_cast<std::uint32_t>(map.SessionOf(proposal.id));
+  NoteBelief(object, proposal.data->stamp, BeliefCause::kCreated);
+  return object;
+}
+
+MapObject ObjectGrowth::WithSighting(const Map& map, MapObject object,
+                                     const KeyframeProposal& proposal,
+                                     const PlacedSighting& sighting,
+                                     const Eigen::Vector3d& up_world) const {
+  const Se3 T_object_camera =
+      map.T_world_object(object).Inverse() * map.FindKeyframe(proposal.id)->T_world_camera;
+  const double depth_m = static_cast<double>(sighting.sighting->region.median_m);
+  const double tolerance_m =
+      options_.view.tolerance_m + options_.view.tolerance_per_m2 * depth_m * depth_m;
+  object.surface = std::make_shared<const ObjectSurface>(
+      WithView(*object.surface, sighting.points_camera, T_object_camera, proposal.objects.view,
+               sighting.sighting->region, tolerance_m));
+  MixColours(object, sighting.sighting->colours);
+  Vote(object, *sighting.sighting);
+  object.current_box = sighting.sighting->box;
+  object.track = sighting.sighting->track;
+  object.last_keyframe = proposal.id;
+  object.last_seen = proposal.data->stamp;
+  object.last_session = static_cast<std::uint32_t>(map.SessionOf(proposal.id));
+  ++object.num_sightings;
+  return Measured(map, std::move(object), up_world);
+}
+
+MapObject ObjectGrowth::Measured(const Map& map, MapObject object,
+                                 const Eigen::Vector3d& up_world) const {
+  const std::vector<Eigen::Vector3f> trusted = TrustedPoints(*object.surface);
+  if (trusted.empty()) return object;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : trusted)
+    sum += p.cast<double>();
+  object.centroid = sum / static_cast<double>(trusted.size());
+  const Eigen::Vector3d up = map.T_world_object(object).R().transpose() * up_world;
+  object.box = BoxAround(trusted, up);
+  if (extent_source_ == ExtentSource::kPoints) MeasureByPoints(map, object);
+  return object;
+}
+
+}  // namespace cslam

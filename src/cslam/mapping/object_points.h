@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cslam/map/map.h"
+#include "cslam/messages/messages.h"
+#include "cslam/objects/expected_view.h"
+#include "cslam/objects/object_classes.h"
+
+#include <map>
+#include <span>
+
+// Which map points are an object's.
+
+namespace cslam {
+
+// Names the object of points that are nobody's yet, by the tracks of the keypoints that the
+// keyframe sees them at.
+void AssignPoints(Map& map, KeyframeId keyframe, std::span<const PointId> points,
+                  const std::map<TrackId, ObjectId>& objects_of_tracks,
+                  const ObjectClasses& classes);
+
+// Gives a thing that is gone the points in its box that nobody had named, as far as the keyframe
+// looks through them as well.
+void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal,
+                const ExpectedViewOptions& options);
+
+}  // namespace cslam
