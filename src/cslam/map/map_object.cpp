@@ -58,6 +58,16 @@ double BeliefOf(const MapObject& object) {
   return 1.0 / (1.0 + std::exp(-object.log_odds));
 }
 
+void AddVote(MapObject& object, const MapObject::ClassVote& vote) {
+  auto known = std::find_if(object.votes.begin(), object.votes.end(),
+                            [&](const auto& v) { return v.class_id == vote.class_id; });
+  if (known == object.votes.end()) known = object.votes.insert(known, {vote.class_id, 0.0F});
+  known->weight += vote.weight;
+  std::stable_sort(object.votes.begin(), object.votes.end(),
+                   [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  object.class_id = object.votes.front().class_id;
+}
+
 void NoteBelief(MapObject& object, Stamp now, BeliefCause cause) {
   const auto belief = static_cast<float>(BeliefOf(object));
   if (!object.history.empty() && object.history.back().belief == belief &&

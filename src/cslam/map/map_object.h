@@ -106,12 +106,18 @@ struct MapObject {
   std::uint32_t first_session = 0;
   std::uint32_t last_session = 0;
   std::int32_t num_sightings = 0;  // keyframes in which it was detected
+  // Frames of this session that had it wholly in view, near by, with and without its detection.
+  std::int32_t num_named_views = 0;
+  std::int32_t num_unnamed_views = 0;
   std::vector<BeliefStep> history;
 
   bool IsAlive() const { return state < ObjectState::kMerged; }
 };
 
 double BeliefOf(const MapObject& object);  // 0 to 1
+
+// Counts a vote for a class; the class with most votes is the object's.
+void AddVote(MapObject& object, const MapObject::ClassVote& vote);
 
 // Adds the present belief to the history, which keeps its first step and the newest ones.
 void NoteBelief(MapObject& object, Stamp now, BeliefCause cause);

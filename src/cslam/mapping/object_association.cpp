@@ -181,7 +181,7 @@ std::optional<ObjectId> FindDouble(const MapView& map, const MapObject& object,
   for (const ObjectId id : map.Objects()) {
     const MapObject& other = *map.FindObject(id);
     if (id == object.id || other.map != object.map || !other.surface ||
-        other.state == ObjectState::kAbsent || !classes.AreAlike(other.class_id, object.class_id)) {
+        other.state == ObjectState::kAbsent) {
       continue;
     }
     const Se3 T_object_other = T_object_world * map.T_world_object(other);
@@ -194,7 +194,11 @@ std::optional<ObjectId> FindDouble(const MapView& map, const MapObject& object,
     const double of_object =
         Overlap(*other.surface, Transformed(object.surface->samples, T_object_other.Inverse()),
                 ReachM(*other.surface));
-    if (std::max(of_other, of_object) >= options.merge_overlap) return id;
+    // One surface is one thing, whatever it is called; but a bear is no part of its chair.
+    const bool is_double = classes.AreAlike(other.class_id, object.class_id)
+                               ? std::max(of_other, of_object) >= options.merge_overlap
+                               : std::min(of_other, of_object) >= options.same_surface;
+    if (is_double) return id;
   }
   return std::nullopt;
 }

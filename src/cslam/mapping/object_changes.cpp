@@ -253,6 +253,17 @@ void ChangeList::OnDisplaced(Map& map, ObjectId id, ObjectId by, Stamp now,
   map.SetChanges(std::move(changes));
 }
 
+void ChangeList::OnMistake(Map& map, ObjectId object) const {
+  std::vector<MapChange> changes = map.changes();
+  std::erase_if(changes, [&](const MapChange& c) { return c.object == object; });
+  for (MapChange& change : changes) {
+    if (change.new_object != object) continue;
+    change.kind = MapChangeKind::kRemoved;
+    change.new_object = ObjectId();
+  }
+  if (!map.changes().empty()) map.SetChanges(std::move(changes));
+}
+
 void ChangeList::OnMerged(Map& map, ObjectId keep, ObjectId drop) const {
   std::vector<MapChange> changes = map.changes();
   for (MapChange& change : changes) {

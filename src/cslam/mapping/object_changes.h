@@ -34,6 +34,9 @@ class ChangeList {
   // Another thing stands where the object stood.
   void OnDisplaced(Map& map, ObjectId object, ObjectId by, Stamp now, std::uint32_t session) const;
 
+  // The object never was: it did not come, nor is it what anything turned into.
+  void OnMistake(Map& map, ObjectId object) const;
+
   // drop turned out to be keep.
   void OnMerged(Map& map, ObjectId keep, ObjectId drop) const;
 

@@ -14,17 +14,6 @@ double VoxelM(double class_distance_m, const MapObjectOptions& options) {
   return std::min(options.voxel_m, std::max(0.01, 0.05 * class_distance_m));
 }
 
-void Vote(MapObject& object, const ObjectSighting& sighting) {
-  const auto class_id = static_cast<std::int16_t>(sighting.class_id);
-  auto vote = std::find_if(object.votes.begin(), object.votes.end(),
-                           [&](const auto& v) { return v.class_id == class_id; });
-  if (vote == object.votes.end()) vote = object.votes.insert(vote, {class_id, 0.0F});
-  vote->weight += static_cast<float>(sighting.score);
-  std::stable_sort(object.votes.begin(), object.votes.end(),
-                   [](const auto& a, const auto& b) { return a.weight > b.weight; });
-  object.class_id = object.votes.front().class_id;
-}
-
 void MixColours(MapObject& object, const ColourHistogram& colours) {
   const float share = 1.0F / static_cast<float>(object.num_sightings + 1);
   for (std::size_t i = 0; i < colours.size(); ++i)
@@ -81,7 +70,8 @@ MapObject ObjectGrowth::WithSighting(const Map& map, MapObject object,
       WithView(*object.surface, sighting.points_camera, T_object_camera, proposal.objects.view,
                sighting.sighting->region, tolerance_m));
   MixColours(object, sighting.sighting->colours);
-  Vote(object, *sighting.sighting);
+  AddVote(object, {static_cast<std::int16_t>(sighting.sighting->class_id),
+                   static_cast<float>(sighting.sighting->score)});
   object.current_box = sighting.sighting->box;
   object.track = sighting.sighting->track;
   object.last_keyframe = proposal.id;

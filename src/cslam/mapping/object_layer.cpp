@@ -122,11 +122,27 @@ int ObjectLayer::TakeEvidence(Map& map, const KeyframeProposal& proposal) const 
     if (!MayUpdate(map, object, proposal.id)) continue;
     object.log_odds = UpdatedLogOdds(object.log_odds, evidence.log_ratio, options_.objects.belief);
     if (evidence.last_seen) object.last_seen = std::max(object.last_seen, *evidence.last_seen);
-    NoteBelief(object, proposal.data->stamp, CauseOf(evidence));
+    object.num_named_views += evidence.num_seen;
+    object.num_unnamed_views += evidence.num_missed;
+    if (evidence.log_ratio != 0.0) NoteBelief(object, proposal.data->stamp, CauseOf(evidence));
+    const bool is_mistake = IsMistake(object);
     map.SetObject(std::move(object));
+    if (is_mistake) {
+      changes_.OnMistake(map, *id);
+      map.EraseObject(*id, Map::PointsOfErased::kKeep);
+      ++changed;
+      continue;
+    }
     changed += Decide(map, *id, proposal, evidence) ? 1 : 0;
   }
   return changed;
+}
+
+// What a detector named once or twice and hardly ever since, though it stood before it.
+bool ObjectLayer::IsMistake(const MapObject& object) const {
+  const int num_views = object.num_named_views + object.num_unnamed_views;
+  return object.state == ObjectState::kPresent && num_views >= options_.objects.min_doubt_views &&
+         object.num_named_views < options_.objects.min_named_share * num_views;
 }
 
 // Draws the consequences of a belief. Returns whether there were any.
@@ -234,7 +250,11 @@ int ObjectLayer::MergeDoubles(Map& map, std::span<const ObjectId> seen, Stamp no
     keep.surface =
         std::make_shared<const ObjectSurface>(Joined(*keep.surface, *drop.surface, T_keep_drop));
     keep.log_odds = std::max(keep.log_odds, drop.log_odds);
+    for (const MapObject::ClassVote& vote : drop.votes)
+      AddVote(keep, vote);
     keep.num_sightings += drop.num_sightings;
+    keep.num_named_views += drop.num_named_views;
+    keep.num_unnamed_views += drop.num_unnamed_views;
     keep.last_keyframe = std::max(keep.last_keyframe, drop.last_keyframe);
     keep.last_seen = drop.last_keyframe < keep.last_keyframe ? keep.last_seen : drop.last_seen;
     keep.track = drop.track;

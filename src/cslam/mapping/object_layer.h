@@ -46,6 +46,7 @@ class ObjectLayer {
   using TrackObjects = std::map<TrackId, ObjectId>;
 
   bool IsOfKnownTrack(const Map& map, const PlacedSighting& sighting) const;
+  bool IsMistake(const MapObject& object) const;
   bool IsPiece(const PlacedSighting& sighting) const;
   int TakeEvidence(Map& map, const KeyframeProposal& proposal) const;
   bool MayUpdate(const Map& map, const MapObject& object, KeyframeId keyframe) const;

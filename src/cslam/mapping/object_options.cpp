@@ -43,6 +43,11 @@ void Describe(OptionList& list, MapObjectOptions& o) {
            "Earlier keyframes that saw a place empty before what stands there counts as added.");
   list.Add("settled_sightings", o.settled_sightings, {1, 1000}, "keyframes",
            "Until so many have seen a thing, whether it is new where it stands is asked anew.");
+  list.Add("min_doubt_views", o.min_doubt_views, {1, 100'000}, "frames",
+           "A thing that was wholly in view, near by, so often ...");
+  list.Add("min_named_share", o.min_named_share, {0.0, 1.0}, "",
+           "... and was detected in less than this share of the views, was taken for something "
+           "by mistake.");
   list.Add("min_displaced", o.min_displaced, {0.0, 1.0}, "",
            "Share of a thing's surface in the box of one that came later: two cannot be there.");
   list.Add("min_displacing_views", o.min_displacing_views, {1, 1000}, "keyframes",

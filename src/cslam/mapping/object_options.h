@@ -41,6 +41,8 @@ struct MapObjectOptions {
   double replace_distance_m = 0.6;
   int min_views_before = 2;
   int settled_sightings = 8;
+  int min_doubt_views = 15;
+  double min_named_share = 0.2;
   double min_displaced = 0.5;
   int min_displacing_views = 3;
   ObjectClassOptions classes;

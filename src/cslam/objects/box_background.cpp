@@ -86,6 +86,16 @@ std::optional<Plane> FindPlane(const std::vector<Reading>& readings, std::size_t
   return FitTo(best);
 }
 
+// Whether it is upright, more or less, in a camera that is.
+bool IsUpright(const Plane& plane, const DepthView& view) {
+  constexpr double kMaxSlope = 0.5;  // 30 degrees off
+  const Camera& camera = view.camera;
+  const double step = view.step;
+  const Eigen::Vector3d normal(plane.x() * camera.fx / step, plane.y() * camera.fy / step,
+                               (plane.x() * camera.cx + plane.y() * camera.cy) / step + plane.z());
+  return std::abs(normal.y()) < kMaxSlope * normal.norm();
+}
+
 std::vector<Plane> FindPlanes(std::vector<Reading> ring, const BoxBackgroundOptions& options) {
   std::vector<Plane> planes;
   const auto min_support =
@@ -142,7 +152,8 @@ BoxBackground FindBoxBackground(const DepthView& view, const cv::Rect& rect,
   }
   const auto min_left = options.min_foreground * static_cast<double>(num_in_box);
   const bool is_flat = num_left < kMinReadings || static_cast<double>(num_left) < min_left;
-  return {is_flat ? cv::Mat() : background, is_flat};
+  if (!is_flat) return {background, false, false};
+  return {cv::Mat(), true, IsUpright(planes.front(), view)};
 }
 
 }  // namespace cslam

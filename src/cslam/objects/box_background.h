@@ -11,6 +11,7 @@ namespace cslam {
 struct BoxBackground {
   cv::Mat mask;  // CV_8UC1 of the view's size, 255 on the planes; empty: nothing to leave out
   bool is_flat = false;  // the planes hold all of the box: what lies on a table or hangs on a wall
+  bool is_on_wall = false;  // ... on one that stands upright, if the camera does on the whole
 };
 
 // Which pixels of rect (thumbnail) lie on planes seen around it. Pixels set in excluded take no

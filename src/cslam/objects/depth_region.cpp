@@ -313,6 +313,7 @@ DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person, co
     region = GrowRegion(view, seeds, allowed, reach_m, options.step_ratio);
   }
   region.is_flat = around.is_flat;
+  region.is_on_wall = around.is_on_wall;
   region.support = region.empty() ? 0.0 : 1.0;
   return region;
 }

@@ -53,8 +53,9 @@ struct DepthRegion {
   Box box;                                                  // full-size px
   float median_m = 0.0F;                                    // of the readings inside
   Eigen::Vector3d centre_camera = Eigen::Vector3d::Zero();  // median of the points, m
-  bool is_flat = false;  // of a box: nothing stands out from the floor or wall around
-  double support = 0.0;  // carried regions: share of the expected pixels whose depth agrees
+  bool is_flat = false;     // of a box: nothing stands out from the floor or wall around ...
+  bool is_on_wall = false;  // ... and that is a wall
+  double support = 0.0;     // carried regions: share of the expected pixels whose depth agrees
 
   bool empty() const { return num_pixels == 0; }
 };

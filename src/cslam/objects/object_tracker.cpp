@@ -166,6 +166,7 @@ void ObjectTracker::Renew(std::optional<TrackId> id, const Detection& detection,
   object.detected = frame.stamp;
   object.is_detected_now = frame.id == now_.id;
   object.is_flat = region.is_flat;
+  object.is_on_wall = region.is_on_wall;
   if (!region.empty()) object.reference_area_m2 = AreaM2(region);
   if (object.is_detected_now) {
     object.box = detection.box;
@@ -377,6 +378,7 @@ std::vector<ObjectSighting> ObjectTracker::Sightings() const {
   for (const Object& object : objects_) {
     if (object.class_id < 0 || object.is_person() || object.region.empty()) continue;
     if (object.filter && object.filter->motion() == ObjectMotion::kMoving) continue;
+    if (object.is_on_wall && !options_.map_flat_on_walls) continue;
     sightings.push_back({.track = object.id,
                          .class_id = object.class_id,
                          .score = object.score * (object.is_flat ? options_.flat_score : 1.0),

@@ -86,7 +86,8 @@ class ObjectTracker {
     Stamp filtered;                  // the newest frame its filter took in
     double reference_area_m2 = 0.0;  // of the region as detected
     bool is_detected_now = false;
-    bool is_flat = false;                     // see DepthRegion
+    bool is_flat = false;  // see DepthRegion
+    bool is_on_wall = false;
     std::optional<Eigen::Vector3d> found_at;  // world; of a nameless thing
     bool has_travelled = false;               // a nameless thing that was seen to go a long way
     bool is_person() const { return class_id == kPersonClass; }

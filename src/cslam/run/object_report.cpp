@@ -34,13 +34,41 @@ Eigen::AlignedBox3d ExtentOf(const MapObject& object, const Se3& T_world_object)
   return extent;
 }
 
-ReportedObject Report(const MapView& map, const MapObject& object, const PointCounts& points) {
+// By the votes of all the places that the same thing has been at.
+std::map<ObjectId, int> ClassesOfThings(const MapView& map) {
+  std::map<ObjectId, ObjectId> next;  // of a thing that moved
+  for (const MapChange& change : map.changes()) {
+    const auto from = map.Resolve(change.object);
+    const auto to = map.Resolve(change.new_object);
+    if (change.kind == MapChangeKind::kMoved && from && to) next[*from] = *to;
+  }
+  const auto last_of = [&](ObjectId id) {
+    for (std::size_t steps = 0; steps < next.size() && next.contains(id); ++steps)
+      id = next.at(id);
+    return id;
+  };
+  std::map<ObjectId, MapObject> things;
+  for (const ObjectId id : map.Objects()) {
+    MapObject& thing = things.try_emplace(last_of(id)).first->second;
+    for (const MapObject::ClassVote& vote : map.FindObject(id)->votes)
+      AddVote(thing, vote);
+  }
+  std::map<ObjectId, int> classes;
+  for (const ObjectId id : map.Objects()) {
+    const MapObject& thing = things.at(last_of(id));
+    classes[id] = thing.votes.empty() ? map.FindObject(id)->class_id : thing.class_id;
+  }
+  return classes;
+}
+
+ReportedObject Report(const MapView& map, const MapObject& object, int class_id,
+                      const PointCounts& points) {
   const Se3 T_world_object = map.T_world_object(object);
   const Eigen::AlignedBox3d extent = ExtentOf(object, T_world_object);
   ReportedObject reported;
   reported.id = static_cast<int>(object.id.value());
   reported.map = static_cast<int>(object.map.value());
-  reported.class_id = object.class_id;
+  reported.class_id = class_id;
   reported.state = ToString(object.state);
   reported.belief = BeliefOf(object);
   reported.centroid = T_world_object * object.centroid;
@@ -81,14 +109,15 @@ ReportedObjects ReportObjects(const RunResult& result, const std::string& sequen
   const MapView& map = result.snapshot->map;
   const MapId largest = LargestMap(result);
   const auto points = CountPoints(map);
+  const auto classes = ClassesOfThings(map);
   ReportedObjects report;
   report.sequence = sequence;
   for (const ObjectId id : map.Objects()) {
     const MapObject& object = *map.FindObject(id);
     if (object.map != largest) continue;
     const auto counts = points.find(id);
-    report.objects.push_back(
-        Report(map, object, counts == points.end() ? PointCounts{} : counts->second));
+    report.objects.push_back(Report(map, object, classes.at(id),
+                                    counts == points.end() ? PointCounts{} : counts->second));
   }
   return report;
 }
@@ -96,6 +125,7 @@ ReportedObjects ReportObjects(const RunResult& result, const std::string& sequen
 ReportedChanges ReportChanges(const RunResult& result, const std::string& sequence) {
   const MapView& map = result.snapshot->map;
   const MapId largest = LargestMap(result);
+  const auto classes = ClassesOfThings(map);
   ReportedChanges report;
   report.sequence = sequence;
   for (const MapChange& change : map.changes()) {
@@ -105,7 +135,7 @@ ReportedChanges ReportChanges(const RunResult& result, const std::string& sequen
     ReportedChange reported;
     reported.kind = KindOf(change.kind);
     reported.object = static_cast<int>(id->value());
-    reported.class_id = object.class_id;
+    reported.class_id = classes.at(*id);
     const Eigen::Vector3d place = map.CentroidOf(object);
     if (change.kind == MapChangeKind::kAdded) {
       reported.to = place;
@@ -117,7 +147,7 @@ ReportedChanges ReportChanges(const RunResult& result, const std::string& sequen
       reported.to = map.CentroidOf(new_object);
       if (change.kind == MapChangeKind::kReplaced) {
         reported.new_object = static_cast<int>(new_id->value());
-        reported.new_class_id = new_object.class_id;
+        reported.new_class_id = classes.at(*new_id);
       }
     }
     reported.last_seen_there = change.last_seen_there;

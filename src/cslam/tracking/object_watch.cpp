@@ -155,8 +155,9 @@ void ObjectWatch::Judge(const ViewedObject& viewed, const WatchedFrame& frame) {
   const bool should_be_named = viewed.expected.verdict == PlaceVerdict::kStanding &&
                                viewed.expected.num_outside == 0 &&
                                viewed.centroid_camera.z() < options_.max_miss_depth_m;
-  if (object.state == ObjectState::kCandidate && should_be_named && has_new_detections_) {
-    evidence.log_ratio += MissedLogRatio(options_.belief);
+  if (should_be_named && has_new_detections_) {
+    if (object.state == ObjectState::kCandidate)
+      evidence.log_ratio += MissedLogRatio(options_.belief);
     ++evidence.num_missed;
     watched.last_view = frame.stamp;
   }
