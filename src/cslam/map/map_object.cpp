@@ -65,7 +65,6 @@ void AddVote(MapObject& object, const MapObject::ClassVote& vote) {
   known->weight += vote.weight;
   std::stable_sort(object.votes.begin(), object.votes.end(),
                    [](const auto& a, const auto& b) { return a.weight > b.weight; });
-  object.class_id = object.votes.front().class_id;
 }
 
 void NoteBelief(MapObject& object, Stamp now, BeliefCause cause) {

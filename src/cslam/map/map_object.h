@@ -83,7 +83,7 @@ struct MapObject {
   MapId map;
   ObjectState state = ObjectState::kCandidate;
   ObjectId merged_into;
-  int class_id = -1;             // COCO; the one with most votes
+  int class_id = -1;             // COCO; the most likely one, by votes and size
   std::vector<ClassVote> votes;  // most first
   double log_odds = 0.0;         // of the belief in its persistence (Eqs. 11 to 14)
   bool is_active = false;        // its points take part in estimation and place recognition
@@ -116,7 +116,7 @@ struct MapObject {
 
 double BeliefOf(const MapObject& object);  // 0 to 1
 
-// Counts a vote for a class; the class with most votes is the object's.
+// Counts a vote for a class. Which class the object has is not decided here.
 void AddVote(MapObject& object, const MapObject::ClassVote& vote);
 
 // Adds the present belief to the history, which keeps its first step and the newest ones.
@@ -137,6 +137,8 @@ struct MapChange {
   std::int32_t num_absent_views = 0;
   std::int32_t num_seen_views = 0;
   bool is_between_sessions = false;
+
+  bool operator==(const MapChange&) const = default;
 };
 
 }  // namespace cslam

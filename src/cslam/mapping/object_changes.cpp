@@ -40,6 +40,14 @@ bool IsSingle(const MapChange& change, MapChangeKind kind) {
   return change.kind == kind && !change.new_object.valid();
 }
 
+// One thing at two places: what it was called at the old one counts at the new one.
+void InheritVotes(Map& map, const MapChange& moved) {
+  MapObject object = *map.FindObject(moved.new_object);
+  for (const MapObject::ClassVote& vote : map.FindObject(moved.object)->votes)
+    AddVote(object, vote);
+  map.SetObject(std::move(object));
+}
+
 // Adds a change, joined with the best of those that are still single: a thing that moved before
 // one that was replaced, later ones first.
 template <typename JoinWith>
@@ -56,6 +64,7 @@ void AddJoined(Map& map, MapChange change, JoinWith&& join) {
     }
   }
   if (partner) changes.erase(changes.begin() + static_cast<std::ptrdiff_t>(*partner));
+  if (best.kind == MapChangeKind::kMoved) InheritVotes(map, best);
   changes.push_back(best);
   map.SetChanges(std::move(changes));
 }
@@ -182,12 +191,26 @@ bool ChangeList::TakeOverReplacement(Map& map, const MapChange& removed) const {
   return false;
 }
 
+// Known better, what was added may turn out to be what is missing elsewhere.
+void ChangeList::RejoinAdded(Map& map, MapChange added) const {
+  std::vector<MapChange> others = map.changes();
+  std::erase(others, added);
+  map.SetChanges(std::move(others));
+  AddJoined(map, added, [&](MapChange& a, const MapChange& b) { return Join(map, a, b); });
+}
+
 void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t session) const {
   const MapObject& object = *map.FindObject(id);
-  const auto is_told = [&](const MapChange& c) {
-    return c.new_object == id || (c.object == id && c.kind == MapChangeKind::kAdded);
-  };
-  if (std::any_of(map.changes().begin(), map.changes().end(), is_told)) return;
+  const std::vector<MapChange>& told = map.changes();
+  if (std::any_of(told.begin(), told.end(), [&](const auto& c) { return c.new_object == id; }))
+    return;
+  const auto added = std::find_if(told.begin(), told.end(), [&](const auto& c) {
+    return c.object == id && c.kind == MapChangeKind::kAdded;
+  });
+  if (added != told.end()) {
+    RejoinAdded(map, *added);
+    return;
+  }
   const bool is_back = object.absent_since.has_value();
   const ViewsBefore before =
       is_back ? ViewsBefore{} : LookBack(map, object, camera_, session, options_.view);
@@ -222,6 +245,7 @@ void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t sessi
       continue;
     }
     changes[i] = joined;
+    if (joined.kind == MapChangeKind::kMoved) InheritVotes(map, joined);
     map.SetChanges(std::move(changes));
     return;
   }

@@ -34,6 +34,20 @@ void MeasureByPoints(const Map& map, MapObject& object) {
   object.box.rotation = T_object_world.rotation;
 }
 
+// By votes, as far as they fit the size.
+int MostLikelyClass(const MapObject& object, const ObjectClasses& classes) {
+  int class_id = object.class_id;
+  double most = 0.0;
+  for (const MapObject::ClassVote& vote : object.votes) {
+    const double votes = static_cast<double>(vote.weight) *
+                         classes.SizeWeight(vote.class_id, object.box.size_m.maxCoeff());
+    if (votes <= most) continue;
+    most = votes;
+    class_id = vote.class_id;
+  }
+  return class_id;
+}
+
 }  // namespace
 
 ObjectGrowth::ObjectGrowth(const MapObjectOptions& options, const ObjectClasses& classes)
@@ -92,6 +106,7 @@ MapObject ObjectGrowth::Measured(const Map& map, MapObject object,
   const Eigen::Vector3d up = map.T_world_object(object).R().transpose() * up_world;
   object.box = BoxAround(trusted, up);
   if (extent_source_ == ExtentSource::kPoints) MeasureByPoints(map, object);
+  object.class_id = MostLikelyClass(object, classes_);
   return object;
 }
 

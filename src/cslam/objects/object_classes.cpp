@@ -40,12 +40,19 @@ void Describe(OptionList& list, ObjectClassOptions& o) {
   list.Add("min_extent", o.min_extent, {0.0, 1.0}, "",
            "What shows less than this share of its distance, across the view, is a piece of "
            "something half hidden: no new object. Only for classes in 'distances'.");
+  list.Add("sizes", o.sizes,
+           "Usual lengths of the largest side, in m: class=from:to, with blanks between.");
+  list.Add("wrong_size_weight", o.wrong_size_weight, {0.0, 1.0}, "",
+           "What a detection counts as vote for a class if the thing is larger or smaller: a "
+           "suitcase is not as high as a chair.");
   list.Add("alike", o.alike, "Classes that detectors take for one another: chair+couch ...");
   list.Add("left_out", o.left_out, "Classes that never become objects of the map.");
 }
 
 ObjectClasses::ObjectClasses(const ObjectClassOptions& options)
-    : default_distance_m_(options.default_distance_m), min_extent_(options.min_extent) {
+    : default_distance_m_(options.default_distance_m),
+      min_extent_(options.min_extent),
+      wrong_size_weight_(options.wrong_size_weight) {
   for (const std::string& entry : Split(options.distances, ' ')) {
     const auto parts = Split(entry, '=');
     std::istringstream number(parts.size() == 2 ? parts[1] : "");
@@ -54,6 +61,16 @@ ObjectClasses::ObjectClasses(const ObjectClassOptions& options)
       throw Error("classes.distances: '{}' is not class=metres", entry);
     }
     distances_m_[ClassCalled(parts[0], "distances")] = distance_m;
+  }
+  for (const std::string& entry : Split(options.sizes, ' ')) {
+    const auto parts = Split(entry, '=');
+    std::istringstream numbers(parts.size() == 2 ? parts[1] : "");
+    double from_m = 0.0;
+    double to_m = 0.0;
+    char colon = 0;
+    if (!(numbers >> from_m >> colon >> to_m) || colon != ':' || from_m < 0.0 || to_m <= from_m)
+      throw Error("classes.sizes: '{}' is not class=from:to in metres", entry);
+    sizes_m_[ClassCalled(parts[0], "sizes")] = {from_m, to_m};
   }
   const auto groups = Split(options.alike, ' ');
   if (groups.size() > kMaxGroups) throw Error("classes.alike: more than {} groups", kMaxGroups);
@@ -73,6 +90,12 @@ double ObjectClasses::DistanceM(int class_id) const {
 double ObjectClasses::MinExtentM(int class_id) const {
   const auto it = distances_m_.find(class_id);
   return it == distances_m_.end() ? 0.0 : min_extent_ * it->second;
+}
+
+double ObjectClasses::SizeWeight(int class_id, double largest_m) const {
+  const auto it = sizes_m_.find(class_id);
+  if (it == sizes_m_.end()) return 1.0;
+  return largest_m >= it->second.first && largest_m <= it->second.second ? 1.0 : wrong_size_weight_;
 }
 
 bool ObjectClasses::AreAlike(int a, int b) const {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 namespace cslam {
 
@@ -19,6 +20,12 @@ struct ObjectClassOptions {
       "refrigerator=1.0";
   double default_distance_m = 0.6;
   double min_extent = 0.3;
+  // Largest side, from ... to ... metres, of those that are often taken for one another.
+  std::string sizes =
+      "chair=0.65:1.4 couch=1.0:3.0 suitcase=0.3:0.95 backpack=0.3:0.8 handbag=0.15:0.6 "
+      "cup=0.05:0.2 bowl=0.08:0.4 bottle=0.1:0.4 vase=0.1:0.8 tv=0.25:2.0 laptop=0.2:0.6 "
+      "teddy_bear=0.1:1.2";
+  double wrong_size_weight = 0.2;
   // Names that detectors use for one another.
   std::string alike =
       "chair+couch tv+laptop cup+bowl+vase bottle+wine_glass suitcase+backpack+handbag "
@@ -41,6 +48,9 @@ class ObjectClasses {
   // without a distance of their own.
   double MinExtentM(int class_id) const;
 
+  // What a vote for the class counts if the thing's largest side is so long: 1 or less.
+  double SizeWeight(int class_id, double largest_m) const;
+
   // One class, or names for one another.
   bool AreAlike(int a, int b) const;
 
@@ -51,6 +61,8 @@ class ObjectClasses {
   double default_distance_m_;
   double min_extent_;
   std::map<int, double> distances_m_;
+  std::map<int, std::pair<double, double>> sizes_m_;  // of the largest side
+  double wrong_size_weight_;
   std::map<int, unsigned> groups_;  // bit i: member of group i
   std::map<int, bool> left_out_;
 };

@@ -34,7 +34,7 @@ Eigen::AlignedBox3d ExtentOf(const MapObject& object, const Se3& T_world_object)
   return extent;
 }
 
-// By the votes of all the places that the same thing has been at.
+// What has moved is called as where it was seen last: there all earlier votes count as well.
 std::map<ObjectId, int> ClassesOfThings(const MapView& map) {
   std::map<ObjectId, ObjectId> next;  // of a thing that moved
   for (const MapChange& change : map.changes()) {
@@ -47,17 +47,9 @@ std::map<ObjectId, int> ClassesOfThings(const MapView& map) {
       id = next.at(id);
     return id;
   };
-  std::map<ObjectId, MapObject> things;
-  for (const ObjectId id : map.Objects()) {
-    MapObject& thing = things.try_emplace(last_of(id)).first->second;
-    for (const MapObject::ClassVote& vote : map.FindObject(id)->votes)
-      AddVote(thing, vote);
-  }
   std::map<ObjectId, int> classes;
-  for (const ObjectId id : map.Objects()) {
-    const MapObject& thing = things.at(last_of(id));
-    classes[id] = thing.votes.empty() ? map.FindObject(id)->class_id : thing.class_id;
-  }
+  for (const ObjectId id : map.Objects())
+    classes[id] = map.FindObject(last_of(id))->class_id;
   return classes;
 }
 
@@ -145,8 +137,8 @@ ReportedChanges ReportChanges(const RunResult& result, const std::string& sequen
     if (const auto new_id = map.Resolve(change.new_object)) {
       const MapObject& new_object = *map.FindObject(*new_id);
       reported.to = map.CentroidOf(new_object);
+      reported.new_object = static_cast<int>(new_id->value());
       if (change.kind == MapChangeKind::kReplaced) {
-        reported.new_object = static_cast<int>(new_id->value());
         reported.new_class_id = classes.at(*new_id);
       }
     }
