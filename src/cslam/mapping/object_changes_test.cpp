@@ -103,6 +103,51 @@ TEST_F(ChangeListTest, LookBackTellsSessionsApart) {
   EXPECT_TRUE(before.is_between_sessions);
 }
 
+TEST_F(ChangeListTest, TakesBackWhatAMistakeHadTold) {
+  const ObjectId chair = AddObject(kHere, 7, 9);
+  Arrive(chair);
+  ASSERT_EQ(Kinds(), std::vector{Kind::kAdded});
+  list_.OnMistake(map_, chair);
+  EXPECT_TRUE(map_.changes().empty());
+}
+
+TEST_F(ChangeListTest, LeavesARemovalWhenTheNewPlaceWasAMistake) {
+  const ObjectId old_chair = AddObject(kHere, 0, 5);
+  const ObjectId new_chair = AddObject(kThere, 12, 15);
+  Arrive(new_chair);
+  Leave(old_chair);
+  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  list_.OnMistake(map_, new_chair);
+  EXPECT_EQ(Kinds(), std::vector{Kind::kRemoved});
+  EXPECT_FALSE(map_.changes()[0].new_object.valid());
+}
+
+TEST_F(ChangeListTest, TellsAMoveOnceTheNewPlaceIsKnownBetter) {
+  const ObjectId old_chair = AddObject(kHere, 0, 5);
+  const ObjectId new_chair = AddObject(kThere, 12, 15, kChairClass, 2.0F, 0.1);  // a leg
+  Arrive(new_chair);
+  Leave(old_chair);
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kRemoved}));
+  MapObject whole = *map_.FindObject(new_chair);
+  whole.box.size_m = Eigen::Vector3d::Constant(0.5);
+  map_.SetObject(std::move(whole));
+  Arrive(new_chair);
+  EXPECT_EQ(Kinds(), std::vector{Kind::kMoved});
+}
+
+TEST_F(ChangeListTest, CarriesTheVotesForAClassAlongWithAMove) {
+  const ObjectId old_chair = AddObject(kHere, 0, 5);
+  MapObject named = *map_.FindObject(old_chair);
+  AddVote(named, {static_cast<std::int16_t>(kChairClass), 3.0F});
+  map_.SetObject(std::move(named));
+  const ObjectId new_chair = AddObject(kThere, 12, 15);
+  Arrive(new_chair);
+  Leave(old_chair);
+  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  ASSERT_EQ(map_.FindObject(new_chair)->votes.size(), 1U);
+  EXPECT_EQ(map_.FindObject(new_chair)->votes[0].weight, 3.0F);
+}
+
 TEST_F(ChangeListTest, ToldAsAddedIfItsPlaceWasEmptyAndAsNothingIfNobodyLooked) {
   Arrive(AddObject(kThere, 0, 9));
   EXPECT_TRUE(map_.changes().empty()) << "it may always have been there";

@@ -355,6 +355,49 @@ TEST_F(ObjectLayerTest, DisplacesWhatALaterThingStandsOn) {
   EXPECT_EQ(map_.changes()[0].new_object, ObjectId(1));
 }
 
+TEST_F(ObjectLayerTest, DisplacesNothingThatIsStillSeen) {
+  room_.things = {{BoxAt(kPlace + Eigen::Vector3d(0.0, 0.0, -0.22), {0.3, 0.3, 0.3}), kBearClass,
+                   TrackId(1), 5.0F}};
+  Settle(front_);
+  room_.things.push_back(Chair(kPlace, 2));  // the bear's front sticks out of it
+  room_.things[0].is_detected = false;
+  for (const double x : {-1.5, 0.0, 1.5})
+    Settle(PoseLookingAt({x, 0.2, 0.3}, kPlace));
+  EXPECT_EQ(Object(0).state, ObjectState::kPresent);
+}
+
+TEST_F(ObjectLayerTest, MakesNoObjectOfAPiece) {
+  room_.things = {{BoxAt(kPlace, {0.15, 0.15, 0.15}), kChairClass, TrackId(1), 2.0F}};
+  EXPECT_EQ(Insert(front_).num_new, 0) << "a chair shows more of itself, or hides";
+  room_.things[0].class_id = 41;
+  EXPECT_EQ(Insert(front_).num_new, 1) << "a cup does not";
+}
+
+TEST_F(ObjectLayerTest, ForgetsWhatIsHardlyEverNamedThoughItStandsInView) {
+  room_.things = {Chair(kPlace)};
+  Settle(front_);
+  ASSERT_EQ(Object(0).state, ObjectState::kPresent);
+  ObjectEvidence unnamed;
+  unnamed.object = ObjectId(0);
+  unnamed.num_missed = 10;
+  Insert(front_, std::vector{unnamed});
+  ASSERT_FALSE(map_.Objects().empty()) << "not yet";
+  Insert(front_, std::vector{unnamed});
+  EXPECT_EQ(map_.ObjectSlot(0).state, ObjectState::kErased);
+  EXPECT_TRUE(map_.changes().empty()) << "it was never there, so it did not go";
+}
+
+TEST_F(ObjectLayerTest, CallsAThingAsItsSizeSuggests) {
+  constexpr int kSuitcaseClass = 28;
+  const Eigen::Vector3d size(0.55, 0.5, 0.2);
+  room_.things = {{BoxAt(kPlace, size), kChairClass, TrackId(1), 2.0F}};
+  Settle(front_);
+  room_.things[0].class_id = kSuitcaseClass;
+  Insert(front_);
+  ASSERT_EQ(map_.Objects().size(), 1U);
+  EXPECT_EQ(Object(0).class_id, kSuitcaseClass) << "two votes to one, but no chair is so low";
+}
+
 TEST_F(ObjectLayerTest, MakesNoObjectsWithoutDepth) {
   room_.things = {Chair(kPlace)};
   test::ThingView seen = test::LookAtThings(room_, camera_, front_, now_);

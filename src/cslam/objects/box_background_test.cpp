@@ -62,6 +62,14 @@ TEST(FindBoxBackground, CallsFlatWhatLiesInThePlaneAround) {
   const BoxBackground found = FindBoxBackground(view, {60, 40, 40, 40}, {}, {});
   EXPECT_TRUE(found.is_flat);
   EXPECT_TRUE(found.mask.empty()) << "or nothing would be left of a picture on the wall";
+  EXPECT_TRUE(found.is_on_wall);
+}
+
+TEST(FindBoxBackground, TellsTheFloorFromAWall) {
+  const DepthView view = ViewOf(FloorAndWall());
+  const BoxBackground rug = FindBoxBackground(view, {60, 100, 40, 12}, {}, {});
+  ASSERT_TRUE(rug.is_flat);
+  EXPECT_FALSE(rug.is_on_wall);
 }
 
 TEST(FindBoxBackground, FindsNothingWithoutDepthWithoutRingOrWhenSwitchedOff) {

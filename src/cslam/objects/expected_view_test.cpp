@@ -59,6 +59,18 @@ TEST(LookAtPlace, TakesHiddenForUnobserved) {
   EXPECT_GT(view.num_hidden, 50);
 }
 
+TEST(LookAtPlace, SeesThatItIsGoneByWhatShouldStickOut) {
+  cv::Mat depth_m = Wall(4.0);
+  DrawPanel(depth_m, 0.0, 0.04, 1.5, 0.6, 0.42);  // hides all but its upper rim
+  const ExpectedView gone = Look(depth_m);
+  EXPECT_GT(gone.num_hidden, 50);
+  EXPECT_EQ(gone.verdict, PlaceVerdict::kLookedThrough);
+
+  cv::Mat there_m = WithPanelAt(2.0);
+  DrawPanel(there_m, 0.0, 0.04, 1.5, 0.6, 0.42);
+  EXPECT_NE(Look(there_m).verdict, PlaceVerdict::kLookedThrough) << "its rim is there";
+}
+
 TEST(LookAtPlace, TakesOutOfViewForUnobserved) {
   const Se3 aside(Eigen::Quaterniond::Identity(), Eigen::Vector3d(5.0, 0.0, 0.0));
   const Se3 behind(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.0, -4.0));
@@ -135,6 +147,17 @@ TEST(LookAtPlace, SkipsSamplesThatAreNoNumbers) {
   const DepthView view = ViewOf(Wall(4.0));
   const DepthSampler sampler{&view.depth_mm, view.step, &view.camera};
   EXPECT_EQ(LookAtPlace(samples, Se3(), sampler, 0.0, {}).num_visible(), 0);
+}
+
+TEST(FindStanding, CountsWhatTheRegionCovers) {
+  const DepthView view = ViewOf(WithPanelAt(2.0));
+  cv::Mat left_half = cv::Mat::zeros(view.depth_mm.size(), CV_8UC1);
+  left_half(cv::Rect(0, 0, left_half.cols / 2, left_half.rows)).setTo(255);
+  const StandingSurface standing = FindStanding(PanelSamples(), {}, view, left_half, {});
+  EXPECT_EQ(standing.num_standing, 100);
+  EXPECT_NEAR(standing.covered_share(), 0.5, 0.11);
+  const DepthView empty = ViewOf(Wall(4.0));
+  EXPECT_EQ(FindStanding(PanelSamples(), {}, empty, left_half, {}).covered_share(), 0.0);
 }
 
 }  // namespace

@@ -22,6 +22,28 @@ TEST(ObjectClasses, KnowTheDistancesOfThePaper) {
   EXPECT_DOUBLE_EQ(classes.DistanceM(Class("umbrella")), 0.6) << "the default";
 }
 
+TEST(ObjectClasses, KnowHowMuchOfAThingIsMoreThanAPiece) {
+  const ObjectClasses classes{ObjectClassOptions{}};
+  EXPECT_NEAR(classes.MinExtentM(Class("chair")), 0.3, 1e-9);
+  EXPECT_EQ(classes.MinExtentM(Class("spoon")), 0.0) << "it has no distance of its own";
+}
+
+TEST(ObjectClasses, WeighVotesBySize) {
+  const ObjectClasses classes{ObjectClassOptions{}};
+  EXPECT_EQ(classes.SizeWeight(Class("chair"), 0.9), 1.0);
+  EXPECT_LT(classes.SizeWeight(Class("chair"), 0.6), 0.5) << "as high as a suitcase";
+  EXPECT_EQ(classes.SizeWeight(Class("suitcase"), 0.6), 1.0);
+  EXPECT_EQ(classes.SizeWeight(Class("spoon"), 5.0), 1.0) << "of which nothing is known";
+}
+
+TEST(ObjectClasses, RefuseSizesThatCannotBeRead) {
+  for (const char* sizes : {"chair", "chair=1", "chair=2:1", "char=0.5:1"}) {
+    ObjectClassOptions options;
+    options.sizes = sizes;
+    EXPECT_THROW(ObjectClasses{options}, Error) << sizes;
+  }
+}
+
 TEST(ObjectClasses, AreAlikeWithinAGroupOnly) {
   const ObjectClasses classes{ObjectClassOptions{}};
   EXPECT_TRUE(classes.AreAlike(Class("chair"), Class("couch")));

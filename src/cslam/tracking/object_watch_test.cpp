@@ -171,10 +171,30 @@ TEST_F(ObjectWatchTest, LooksThroughThoughAnotherChairStandsBehind) {
 
 TEST_F(ObjectWatchTest, HoldsMissingDetectionsAgainstCandidatesOnly) {
   Look(1.0, WithPanel(kDepthM));
-  EXPECT_EQ(Taken().num_missed, 0) << "what is believed in and stands there is there";
+  const ObjectEvidence of_present = Taken();
+  EXPECT_EQ(of_present.num_missed, 1);
+  EXPECT_EQ(of_present.log_ratio, 0.0) << "what is believed in and stands there is there";
   SetState(ObjectState::kCandidate);
   Look(2.0, WithPanel(kDepthM));
   EXPECT_EQ(Taken().num_missed, 1);
+}
+
+TEST_F(ObjectWatchTest, HoldsASightingForOneObjectAlone) {
+  MapObject wall = *map_.FindObject(kChair);  // a piece beside it that once passed for a chair
+  ObjectSurface surface;
+  for (float y = -0.27F; y < 0.28F; y += 0.06F)
+    surface.samples.emplace_back(0.5F, y, 4.0F);
+  wall.surface = std::make_shared<const ObjectSurface>(std::move(surface));
+  wall.centroid = {0.5, 0.0, 2.5};
+  wall.state = ObjectState::kCandidate;
+  const ObjectId beside = map_.AddObject(std::move(wall));
+  Look(1.0, WithPanel(kDepthM), {SightingAt(kDepthM, kChairClass, At(1.0))});
+  int num_seen = 0;
+  for (const ObjectEvidence& evidence : watch_.Take()) {
+    EXPECT_TRUE(evidence.object == kChair || evidence.num_seen == 0) << beside.value();
+    num_seen += evidence.num_seen;
+  }
+  EXPECT_EQ(num_seen, 1);
 }
 
 TEST_F(ObjectWatchTest, SaysNothingMoreOfWhatIsKnownToBeAbsent) {
