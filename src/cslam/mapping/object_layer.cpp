@@ -34,6 +34,7 @@ ObjectLayer::ObjectLayer(const Camera& camera, const DepthOptions& depth,
 
 void ObjectLayer::Reset() {
   objects_of_tracks_.clear();
+  strays_.clear();
   up_sum_.clear();
 }
 
@@ -63,13 +64,19 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
       AssociateSightings(map, map_id_, sightings, view, T_world_camera, classes_, options_.objects);
   std::vector<ObjectId> seen;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    if (!known[i] && (IsOfKnownTrack(map, sightings[i]) || IsPiece(sightings[i]))) continue;
+    const TrackId track = sightings[i].sighting->track;
+    if (!known[i] && IsPiece(sightings[i])) continue;
+    if (!known[i] && IsOfKnownTrack(map, sightings[i]) &&
+        ++strays_[track] < options_.objects.max_strays) {
+      continue;
+    }
+    strays_.erase(track);
     const ObjectId id =
         known[i] ? *known[i] : map.AddObject(growth_.Begin(map, map_id_, proposal, sightings[i]));
     map.SetObject(
         growth_.WithSighting(map, *map.FindObject(id), proposal, sightings[i], UpWorld()));
     report.num_new += known[i] ? 0 : 1;
-    objects_of_tracks_[sightings[i].sighting->track] = id;
+    objects_of_tracks_[track] = id;
     seen.push_back(id);
   }
   for (const ObjectId id : seen) {
@@ -83,7 +90,8 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
 }
 
 // What the tracker has followed without a break is no second thing: its region has run into
-// something else, like the wall behind it.
+// something else, like the wall behind it. Unless it stays there: then it was the first one that
+// was something else, like the arm of the chair that a bear sits in.
 bool ObjectLayer::IsOfKnownTrack(const Map& map, const PlacedSighting& sighting) const {
   const auto known = objects_of_tracks_.find(sighting.sighting->track);
   const MapObject* object =

@@ -68,6 +68,7 @@ class ObjectLayer {
   const ChangeList changes_;
 
   TrackObjects objects_of_tracks_;           // as seen last
+  std::map<TrackId, int> strays_;            // keyframes in a row that saw it elsewhere
   std::map<MapId, Eigen::Vector3d> up_sum_;  // of the cameras' upward axes, world
   MapId map_id_;
 };

@@ -373,6 +373,16 @@ TEST_F(ObjectLayerTest, MakesNoObjectOfAPiece) {
   EXPECT_EQ(Insert(front_).num_new, 1) << "a cup does not";
 }
 
+TEST_F(ObjectLayerTest, MakesANewObjectOfATrackThatStaysOffTheFirst) {
+  room_.things = {Chair(kPlace)};
+  Settle(front_);
+  room_.things = {Chair(kPlace), Chair(kPlace + Eigen::Vector3d(0.9, 0.0, 0.6))};
+  room_.things[0].is_detected = false;  // the track has found its thing behind
+  EXPECT_EQ(Insert(front_).num_new, 0);
+  EXPECT_EQ(Insert(front_).num_new, 0);
+  EXPECT_EQ(Insert(front_).num_new, 1);
+}
+
 TEST_F(ObjectLayerTest, ForgetsWhatIsHardlyEverNamedThoughItStandsInView) {
   room_.things = {Chair(kPlace)};
   Settle(front_);

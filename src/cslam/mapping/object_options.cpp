@@ -43,6 +43,10 @@ void Describe(OptionList& list, MapObjectOptions& o) {
            "Earlier keyframes that saw a place empty before what stands there counts as added.");
   list.Add("settled_sightings", o.settled_sightings, {1, 1000}, "keyframes",
            "Until so many have seen a thing, whether it is new where it stands is asked anew.");
+  list.Add(
+      "max_strays", o.max_strays, {1, 1000}, "keyframes",
+      "So many in a row that see a thing, followed without a break, off its surface make a new "
+      "object of it: the first one was something else.");
   list.Add("min_doubt_views", o.min_doubt_views, {1, 100'000}, "frames",
            "A thing that was wholly in view, near by, so often ...");
   list.Add("min_named_share", o.min_named_share, {0.0, 1.0}, "",
