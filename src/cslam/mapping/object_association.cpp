@@ -176,6 +176,7 @@ std::vector<std::optional<ObjectId>> AssociateSightings(const MapView& map, MapI
 
 std::optional<ObjectId> FindDouble(const MapView& map, const MapObject& object,
                                    const ObjectClasses& classes, const MapObjectOptions& options) {
+  constexpr double kSameSurfaceReach = 0.35;  // one surface has one middle, more or less
   if (!object.surface || object.state == ObjectState::kAbsent) return std::nullopt;
   const Se3 T_object_world = map.T_world_object(object).Inverse();
   for (const ObjectId id : map.Objects()) {
@@ -187,7 +188,9 @@ std::optional<ObjectId> FindDouble(const MapView& map, const MapObject& object,
     const Se3 T_object_other = T_object_world * map.T_world_object(other);
     const double limit_m =
         std::max(classes.DistanceM(object.class_id), classes.DistanceM(other.class_id));
-    if ((T_object_other * other.centroid - object.centroid).norm() > limit_m) continue;
+    const bool is_alike = classes.AreAlike(other.class_id, object.class_id);
+    const double reach_m = is_alike ? limit_m : kSameSurfaceReach * limit_m;
+    if ((T_object_other * other.centroid - object.centroid).norm() > reach_m) continue;
     const double of_other =
         Overlap(*object.surface, Transformed(other.surface->samples, T_object_other),
                 ReachM(*object.surface));
@@ -195,9 +198,8 @@ std::optional<ObjectId> FindDouble(const MapView& map, const MapObject& object,
         Overlap(*other.surface, Transformed(object.surface->samples, T_object_other.Inverse()),
                 ReachM(*other.surface));
     // One surface is one thing, whatever it is called; but a bear is no part of its chair.
-    const bool is_double = classes.AreAlike(other.class_id, object.class_id)
-                               ? std::max(of_other, of_object) >= options.merge_overlap
-                               : std::min(of_other, of_object) >= options.same_surface;
+    const bool is_double = is_alike ? std::max(of_other, of_object) >= options.merge_overlap
+                                    : std::min(of_other, of_object) >= options.same_surface;
     if (is_double) return id;
   }
   return std::nullopt;

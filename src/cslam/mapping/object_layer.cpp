@@ -83,6 +83,7 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
     JudgeArrival(map, id, proposal);
     report.num_changed += DisplaceOthers(map, id, proposal);
   }
+  SweepLeftPlaces(map, proposal);
   const std::vector<PointId> points = map.FindKeyframe(proposal.id)->points;
   AssignPoints(map, proposal.id, points);
   report.num_changed += MergeDoubles(map, seen, proposal.data->stamp);
@@ -214,6 +215,18 @@ void ObjectLayer::Activate(Map& map, ObjectId id) const {
   MapObject object = *map.FindObject(id);
   object.is_active = true;
   map.SetObject(std::move(object));
+}
+
+// Little of a place may have been in view when it was found empty.
+void ObjectLayer::SweepLeftPlaces(Map& map, const KeyframeProposal& proposal) const {
+  for (const ObjectId id : map.Objects()) {
+    const MapObject& object = *map.FindObject(id);
+    if (object.map != map_id_ || object.state != ObjectState::kAbsent || !object.absent_since)
+      continue;
+    const double since_s = SecondsBetween(proposal.data->stamp, *object.absent_since);
+    if (since_s >= 0.0 && since_s <= options_.objects.sweep_for_s)
+      SweepPlace(map, id, proposal, options_.objects.view);
+  }
 }
 
 // What stood where a new thing stands, and has not been seen since, is gone.

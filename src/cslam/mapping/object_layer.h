@@ -54,6 +54,7 @@ class ObjectLayer {
               const ObjectEvidence& evidence) const;
   void JudgeArrival(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   void Activate(Map& map, ObjectId id) const;
+  void SweepLeftPlaces(Map& map, const KeyframeProposal& proposal) const;
   int DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   int MergeDoubles(Map& map, std::span<const ObjectId> seen, Stamp now);
   Eigen::Vector3d UpWorld() const;

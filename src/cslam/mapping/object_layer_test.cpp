@@ -342,6 +342,19 @@ TEST_F(ObjectLayerTest, SweepsUnnamedPointsFromAPlaceThatIsLookedThrough) {
   EXPECT_TRUE(IsUsable(*map_.FindPoint(PointId(1))));
 }
 
+TEST_F(ObjectLayerTest, GoesOnSweepingThePlaceOfWhatHasGone) {
+  has_points_ = true;
+  room_.things = {Chair(kPlace)};
+  Settle(front_);
+  room_.things = {};
+  const Se3 aside = PoseLookingAt({0.0, 0.2, 0.0}, {3.0, 0.2, 0.0});  // it is behind the camera
+  Insert(aside, std::vector{Through(ObjectId(0), 4)});
+  ASSERT_EQ(Object(0).state, ObjectState::kAbsent);
+  ASSERT_FALSE(map_.FindPoint(PointId(0))->object.valid()) << "nobody has looked there since";
+  Insert(front_);
+  EXPECT_EQ(map_.FindPoint(PointId(0))->object, ObjectId(0));
+}
+
 TEST_F(ObjectLayerTest, DisplacesWhatALaterThingStandsOn) {
   const Thing bear{BoxAt(kPlace, {0.3, 0.3, 0.3}), kBearClass, TrackId(1), 5.0F};
   room_.things = {bear};

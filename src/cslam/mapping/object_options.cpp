@@ -47,6 +47,9 @@ void Describe(OptionList& list, MapObjectOptions& o) {
       "max_strays", o.max_strays, {1, 1000}, "keyframes",
       "So many in a row that see a thing, followed without a break, off its surface make a new "
       "object of it: the first one was something else.");
+  list.Add("sweep_for", o.sweep_for_s, {0.0, 3600.0}, "s",
+           "So long after a thing has gone, points at its place that are looked through go too, "
+           "though nobody had named them.");
   list.Add("min_doubt_views", o.min_doubt_views, {1, 100'000}, "frames",
            "A thing that was wholly in view, near by, so often ...");
   list.Add("min_named_share", o.min_named_share, {0.0, 1.0}, "",

@@ -41,6 +41,7 @@ struct MapObjectOptions {
   double replace_distance_m = 0.6;
   int min_views_before = 2;
   int settled_sightings = 8;
+  double sweep_for_s = 10.0;
   int max_strays = 3;
   int min_doubt_views = 15;
   double min_named_share = 0.2;

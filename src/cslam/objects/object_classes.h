@@ -22,7 +22,7 @@ struct ObjectClassOptions {
   double min_extent = 0.3;
   // Largest side, from ... to ... metres, of those that are often taken for one another.
   std::string sizes =
-      "chair=0.65:1.4 couch=1.0:3.0 suitcase=0.3:0.95 backpack=0.3:0.8 handbag=0.15:0.6 "
+      "chair=0.7:1.4 couch=1.0:3.0 suitcase=0.3:0.95 backpack=0.3:0.8 handbag=0.15:0.6 "
       "cup=0.05:0.2 bowl=0.08:0.4 bottle=0.1:0.4 vase=0.1:0.8 tv=0.25:2.0 laptop=0.2:0.6 "
       "teddy_bear=0.1:1.2";
   double wrong_size_weight = 0.2;
