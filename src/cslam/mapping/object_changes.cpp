@@ -40,6 +40,15 @@ bool IsSingle(const MapChange& change, MapChangeKind kind) {
   return change.kind == kind && !change.new_object.valid();
 }
 
+// What was told last of the object's coming.
+std::optional<MapChange> ToldArrival(const MapView& map, ObjectId id) {
+  const std::vector<MapChange>& changes = map.changes();
+  const auto told = std::find_if(changes.rbegin(), changes.rend(), [&](const MapChange& c) {
+    return c.new_object == id || (c.object == id && c.kind == MapChangeKind::kAdded);
+  });
+  return told == changes.rend() ? std::nullopt : std::optional(*told);
+}
+
 // One thing at two places: what it was called at the old one counts at the new one.
 void InheritVotes(Map& map, const MapChange& moved) {
   MapObject object = *map.FindObject(moved.new_object);
@@ -192,7 +201,7 @@ bool ChangeList::TakeOverReplacement(Map& map, const MapChange& removed) const {
 }
 
 // Known better, what was added may turn out to be what is missing elsewhere.
-void ChangeList::RejoinAdded(Map& map, MapChange added) const {
+void ChangeList::RejoinAdded(Map& map, const MapChange& added) const {
   std::vector<MapChange> others = map.changes();
   std::erase(others, added);
   map.SetChanges(std::move(others));
@@ -201,17 +210,11 @@ void ChangeList::RejoinAdded(Map& map, MapChange added) const {
 
 void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t session) const {
   const MapObject& object = *map.FindObject(id);
-  const std::vector<MapChange>& told = map.changes();
-  if (std::any_of(told.begin(), told.end(), [&](const auto& c) { return c.new_object == id; }))
-    return;
-  const auto added = std::find_if(told.begin(), told.end(), [&](const auto& c) {
-    return c.object == id && c.kind == MapChangeKind::kAdded;
-  });
-  if (added != told.end()) {
-    RejoinAdded(map, *added);
+  const bool is_back = object.absent_since.has_value();
+  if (const auto told = is_back ? std::nullopt : ToldArrival(map, id)) {
+    if (IsSingle(*told, MapChangeKind::kAdded)) RejoinAdded(map, *told);
     return;
   }
-  const bool is_back = object.absent_since.has_value();
   const ViewsBefore before =
       is_back ? ViewsBefore{} : LookBack(map, object, camera_, session, options_.view);
   const bool was_empty = is_back || (before.num_through >= options_.min_views_before &&

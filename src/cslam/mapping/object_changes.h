@@ -43,7 +43,7 @@ class ChangeList {
  private:
   bool LooksLike(const MapObject& a, const MapObject& b) const;
   bool StandsAt(const MapView& map, const MapObject& a, const MapObject& b) const;
-  void RejoinAdded(Map& map, MapChange added) const;
+  void RejoinAdded(Map& map, const MapChange& added) const;
   bool TakeOverReplacement(Map& map, const MapChange& removed) const;
   bool Join(const MapView& map, MapChange& change, const MapChange& other) const;
 

@@ -103,6 +103,14 @@ TEST_F(ChangeListTest, LookBackTellsSessionsApart) {
   EXPECT_TRUE(before.is_between_sessions);
 }
 
+TEST_F(ChangeListTest, TellsASecondComingThoughTheFirstWasTold) {
+  const ObjectId chair = AddObject(kHere, 7, 9);
+  Arrive(chair);
+  Leave(chair);
+  Arrive(chair);  // with absent_since still set, as the layer does
+  EXPECT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kRemoved, Kind::kAdded}));
+}
+
 TEST_F(ChangeListTest, TakesBackWhatAMistakeHadTold) {
   const ObjectId chair = AddObject(kHere, 7, 9);
   Arrive(chair);
