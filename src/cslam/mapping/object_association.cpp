@@ -3,9 +3,10 @@
 #include "cslam/mapping/object_association.h"
 
 #include "cslam/mapping/object_geometry.h"
+#include "cslam/util/quantile.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace cslam {
 namespace {
@@ -39,6 +40,19 @@ std::vector<Eigen::Vector3f> Transformed(std::span<const Eigen::Vector3f> points
   return moved;
 }
 
+struct Ends {
+  double min = 0.0;
+  double max = 0.0;
+};
+
+// Where the values lie, the outermost 5 % at each end left out.
+Ends InnerEnds(std::vector<double> values) {
+  const std::size_t last = values.size() - 1;
+  const std::size_t cut = values.size() / 20;
+  const double min = ValueOfRank(values, cut);
+  return {min, ValueOfRank(std::move(values), last - cut)};
+}
+
 // Largest side of the object's box once it holds the points as well (object frame).
 double UnionSizeM(const OrientedBox& box, std::span<const Eigen::Vector3f> points) {
   const Eigen::Matrix3d R = box.rotation.toRotationMatrix().transpose();
@@ -48,11 +62,9 @@ double UnionSizeM(const OrientedBox& box, std::span<const Eigen::Vector3f> point
     values.reserve(points.size());
     for (const Eigen::Vector3f& p : points)
       values.push_back(R.row(axis).dot(p.cast<double>() - box.center));
-    std::sort(values.begin(), values.end());
-    const std::size_t cut = values.size() / 20;
+    const Ends ends = InnerEnds(std::move(values));
     const double half = 0.5 * box.size_m[axis];
-    largest = std::max(
-        largest, std::max(half, values[values.size() - 1 - cut]) - std::min(-half, values[cut]));
+    largest = std::max(largest, std::max(half, ends.max) - std::min(-half, ends.min));
   }
   return largest;
 }
@@ -65,17 +77,16 @@ bool IsElsewhere(const StandingSurface& surface) {
          surface.num_covered < kMaxCovered * surface.num_standing;
 }
 
-// The larger of width and height, the outermost 5 % left out.
+// The larger of width and height.
 double ExtentAcross(std::span<const Eigen::Vector3f> points_camera) {
   double extent_m = 0.0;
   for (int axis = 0; axis < 2; ++axis) {
-    std::vector<float> values;
+    std::vector<double> values;
     values.reserve(points_camera.size());
     for (const Eigen::Vector3f& p : points_camera)
-      values.push_back(p[axis]);
-    std::sort(values.begin(), values.end());
-    const std::size_t cut = values.size() / 20;
-    extent_m = std::max(extent_m, double{values[values.size() - 1 - cut]} - double{values[cut]});
+      values.push_back(static_cast<double>(p[axis]));
+    const Ends ends = InnerEnds(std::move(values));
+    extent_m = std::max(extent_m, ends.max - ends.min);
   }
   return extent_m;
 }
@@ -128,11 +139,8 @@ std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sight
     one.sighting = sighting;
     one.points_camera = PointsOfRegion(view, sighting->region, kMaxPoints);
     if (static_cast<int>(one.points_camera.size()) < options.min_voxels) continue;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3f& p : one.points_camera)
-      sum += p.cast<double>();
     one.extent_m = ExtentAcross(one.points_camera);
-    one.centroid_world = T_world_camera * (sum / static_cast<double>(one.points_camera.size()));
+    one.centroid_world = T_world_camera * MeanOf(one.points_camera);
     placed.push_back(std::move(one));
   }
   return placed;

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/mapping/object_geometry.h"
 
+#include "cslam/objects/expected_view.h"
+#include "cslam/util/quantile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace cslam {
 namespace {
@@ -103,24 +107,10 @@ void CountOutside(std::vector<SurfaceVoxel>& voxels, const Se3& T_camera_surface
                   const DepthView& view, const DepthRegion& region, double tolerance_m) {
   for (SurfaceVoxel& voxel : voxels) {
     const Eigen::Vector3d p = T_camera_surface * voxel.p.cast<double>();
-    if (p.z() < 0.1) continue;
-    const Eigen::Vector2d uv = Project(view.camera, p);
-    const int u = static_cast<int>(std::floor(uv.x() / view.step));
-    const int v = static_cast<int>(std::floor(uv.y() / view.step));
-    if (u < 0 || v < 0 || u >= region.mask.cols || v >= region.mask.rows) continue;
-    const double z = static_cast<double>(view.DepthM(u, v));
-    if (z <= 0.0 || std::abs(z - p.z()) > tolerance_m) continue;
-    if (region.mask.at<std::uint8_t>(v, u) == 0) {
-      voxel.num_outside = Add(voxel.num_outside, 1);
-    }
+    const auto pixel = PixelOfSurface(view, p, tolerance_m);
+    if (!pixel || region.mask.at<std::uint8_t>(*pixel) != 0) continue;
+    voxel.num_outside = Add(voxel.num_outside, 1);
   }
-}
-
-// The value below which a share of the values lies; reorders them.
-double Quantile(std::vector<double>& values, double share) {
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
 }
 
 struct Interval {
@@ -136,8 +126,8 @@ Interval RobustInterval(std::span<const Eigen::Vector3f> points, const Eigen::Ve
   values.reserve(points.size());
   for (const Eigen::Vector3f& p : points)
     values.push_back(axis.dot(p.cast<double>()));
-  const double min = Quantile(values, kLeftOut);
-  return {min, Quantile(values, 1.0 - kLeftOut)};
+  const double min = QuantileOf(values, kLeftOut);
+  return {min, QuantileOf(std::move(values), 1.0 - kLeftOut)};
 }
 
 // Readings between two surfaces, as sensors make them at edges, have few neighbours at their depth.
@@ -221,8 +211,8 @@ std::vector<Eigen::Vector3f> TrustedPoints(const ObjectSurface& surface) {
   for (const SurfaceVoxel& voxel : surface.voxels)
     counts.push_back(voxel.num_inside);
   if (counts.empty()) return {};
-  const int min_inside =
-      std::clamp(static_cast<int>(std::lround(kMinShare * Quantile(counts, kUsual))), 1, kEnough);
+  const double usual = QuantileOf(std::move(counts), kUsual);
+  const int min_inside = std::clamp(static_cast<int>(std::lround(kMinShare * usual)), 1, kEnough);
   std::vector<Eigen::Vector3f> points;
   points.reserve(surface.voxels.size());
   for (const SurfaceVoxel& voxel : surface.voxels) {
@@ -282,6 +272,13 @@ OrientedBox BoxAround(std::span<const Eigen::Vector3f> points, const Eigen::Vect
   return box;
 }
 
+Eigen::Vector3d MeanOf(std::span<const Eigen::Vector3f> points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : points)
+    sum += p.cast<double>();
+  return sum / static_cast<double>(points.size());
+}
+
 Eigen::Vector3d CentroidOfPoints(std::span<const Eigen::Vector3d> points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : points)
@@ -299,11 +296,12 @@ Eigen::AlignedBox3d ExtentOfPoints(std::span<const Eigen::Vector3d> points) {
     values.reserve(points.size());
     for (const Eigen::Vector3d& p : points)
       values.push_back(p[axis]);
-    std::sort(values.begin(), values.end());
     const std::size_t count = std::max<std::size_t>(
         1, static_cast<std::size_t>(kShare * static_cast<double>(values.size())));
-    min[axis] = values[(count - 1) / 2];
-    max[axis] = values[values.size() - 1 - (count - 1) / 2];
+    const std::size_t left_out = (count - 1) / 2;
+    const std::size_t last = values.size() - 1;
+    min[axis] = ValueOfRank(values, left_out);
+    max[axis] = ValueOfRank(std::move(values), last - left_out);
   }
   return {min, max};
 }

@@ -39,6 +39,9 @@ double Overlap(const ObjectSurface& surface, std::span<const Eigen::Vector3f> po
 // The smallest box of which one axis is up (unit vector), the outermost 2 % left out.
 OrientedBox BoxAround(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& up);
 
+// points not empty.
+Eigen::Vector3d MeanOf(std::span<const Eigen::Vector3f> points);
+
 // The paper's: mean, and box along the axes between the medians of the 5 % smallest and largest
 // coordinates. points not empty.
 Eigen::Vector3d CentroidOfPoints(std::span<const Eigen::Vector3d> points);

@@ -78,8 +78,7 @@ MapObject ObjectGrowth::WithSighting(const Map& map, MapObject object,
   const Se3 T_object_camera =
       map.T_world_object(object).Inverse() * map.FindKeyframe(proposal.id)->T_world_camera;
   const double depth_m = static_cast<double>(sighting.sighting->region.median_m);
-  const double tolerance_m =
-      options_.view.tolerance_m + options_.view.tolerance_per_m2 * depth_m * depth_m;
+  const double tolerance_m = options_.view.ToleranceM(depth_m);
   object.surface = std::make_shared<const ObjectSurface>(
       WithView(*object.surface, sighting.points_camera, T_object_camera, proposal.objects.view,
                sighting.sighting->region, tolerance_m));
@@ -99,10 +98,7 @@ MapObject ObjectGrowth::Measured(const Map& map, MapObject object,
                                  const Eigen::Vector3d& up_world) const {
   const std::vector<Eigen::Vector3f> trusted = TrustedPoints(*object.surface);
   if (trusted.empty()) return object;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : trusted)
-    sum += p.cast<double>();
-  object.centroid = sum / static_cast<double>(trusted.size());
+  object.centroid = MeanOf(trusted);
   const Eigen::Vector3d up = map.T_world_object(object).R().transpose() * up_world;
   object.box = BoxAround(trusted, up);
   if (extent_source_ == ExtentSource::kPoints) MeasureByPoints(map, object);

@@ -98,8 +98,7 @@ ExpectedView LookAtPlace(std::span<const Eigen::Vector3f> samples, const Se3& T_
       continue;
     }
     const Readings readings = ReadAround(image, u, v);
-    const double tolerance =
-        options.tolerance_m + options.tolerance_per_m2 * p.z() * p.z() + pose_sigma_m;
+    const double tolerance = options.ToleranceM(p.z()) + pose_sigma_m;
     if (readings.here_m <= 0.0) {
       ++view.num_unclear;
     } else if (readings.nearest_m > p.z() + tolerance) {
@@ -118,6 +117,18 @@ ExpectedView LookAtPlace(std::span<const Eigen::Vector3f> samples, const Se3& T_
   return view;
 }
 
+std::optional<cv::Point> PixelOfSurface(const DepthView& view, const Eigen::Vector3d& p_camera,
+                                        double tolerance_m) {
+  if (p_camera.z() < 0.1) return std::nullopt;
+  const Eigen::Vector2d uv = Project(view.camera, p_camera);
+  const int u = static_cast<int>(std::floor(uv.x() / view.step));
+  const int v = static_cast<int>(std::floor(uv.y() / view.step));
+  if (u < 0 || v < 0 || u >= view.depth_mm.cols || v >= view.depth_mm.rows) return std::nullopt;
+  const double z_m = static_cast<double>(view.DepthM(u, v));
+  if (z_m <= 0.0 || std::abs(z_m - p_camera.z()) > tolerance_m) return std::nullopt;
+  return cv::Point(u, v);
+}
+
 StandingSurface FindStanding(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
                              const DepthView& view, const cv::Mat& region,
                              const ExpectedViewOptions& options) {
@@ -125,16 +136,10 @@ StandingSurface FindStanding(std::span<const Eigen::Vector3f> samples, const Se3
   surface.num_samples = static_cast<int>(samples.size());
   for (const Eigen::Vector3f& sample : samples) {
     const Eigen::Vector3d p = T_camera_samples * sample.cast<double>();
-    if (p.z() < 0.1) continue;
-    const Eigen::Vector2d uv = Project(view.camera, p);
-    const int u = static_cast<int>(std::floor(uv.x() / view.step));
-    const int v = static_cast<int>(std::floor(uv.y() / view.step));
-    if (u < 0 || v < 0 || u >= view.depth_mm.cols || v >= view.depth_mm.rows) continue;
-    const double z_m = static_cast<double>(view.DepthM(u, v));
-    const double tolerance_m = options.tolerance_m + options.tolerance_per_m2 * p.z() * p.z();
-    if (z_m <= 0.0 || std::abs(z_m - p.z()) > tolerance_m) continue;
+    const auto pixel = PixelOfSurface(view, p, options.ToleranceM(p.z()));
+    if (!pixel) continue;
     ++surface.num_standing;
-    surface.num_covered += region.at<std::uint8_t>(v, u) != 0 ? 1 : 0;
+    surface.num_covered += region.at<std::uint8_t>(*pixel) != 0 ? 1 : 0;
   }
   return surface;
 }

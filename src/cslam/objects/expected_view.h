@@ -10,6 +10,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace cslam {
@@ -27,6 +28,10 @@ struct ExpectedViewOptions {
   double min_rim_share = 0.1;       // ... or only so many, if one looks through all of them
   double min_taken_through = 0.25;  // the same, where another thing stands on the rest
   double min_standing_share = 0.5;  // of the visible ones: its surface stands there
+
+  double ToleranceM(double depth_m) const {
+    return tolerance_m + tolerance_per_m2 * depth_m * depth_m;
+  }
 };
 void Describe(OptionList& list, ExpectedViewOptions& options);
 
@@ -68,6 +73,10 @@ struct ExpectedView {
 ExpectedView LookAtPlace(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
                          const DepthSampler& depth, double pose_sigma_m,
                          const ExpectedViewOptions& options);
+
+// The pixel that the point (camera frame, m) falls on, if what is seen there is as far away.
+std::optional<cv::Point> PixelOfSurface(const DepthView& view, const Eigen::Vector3d& p_camera,
+                                        double tolerance_m);
 
 // Of a surface, what is in this picture and stands where it is expected.
 struct StandingSurface {

@@ -81,15 +81,18 @@ std::vector<ObjectWatch::ViewedObject> ObjectWatch::ViewObjects(const WatchedFra
   const double pose_sigma_m =
       options_.pose_sigma_m / std::sqrt(static_cast<double>(std::max(1, frame.num_inliers)));
   std::vector<ViewedObject> viewed;
+  std::map<int, cv::Mat> others_of_class;
   for (std::size_t i = 0; i < map.num_object_ids(); ++i) {
     const MapObject& object = map.ObjectSlot(i);
     if (!object.IsAlive() || object.map != frame.map || !object.surface) continue;
     const Se3 T_camera_object = frame.T_world_camera.Inverse() * map.T_world_object(object);
     const Eigen::Vector3d centroid = T_camera_object * object.centroid;
     if (centroid.z() < 0.1 || centroid.z() > options_.view.max_depth_m) continue;
-    const cv::Mat others = CoveredByOthers(frame.sightings, object.class_id, classes_);
+    const auto [others, is_first_of_class] = others_of_class.try_emplace(object.class_id);
+    if (is_first_of_class)
+      others->second = CoveredByOthers(frame.sightings, object.class_id, classes_);
     const DepthSampler sampler{&frame.view->depth_mm, frame.view->step, &frame.view->camera, false,
-                               &others};
+                               &others->second};
     viewed.push_back({&object, T_camera_object, centroid,
                       LookAtPlace(object.surface->samples, T_camera_object, sampler, pose_sigma_m,
                                   options_.view)});
