@@ -179,6 +179,7 @@ bool ObjectLayer::Decide(Map& map, ObjectId id, const KeyframeProposal& proposal
     object.is_active = false;
     object.absent_since = evidence.first_through.value_or(now);
     map.SetObject(std::move(object));
+    // Not left to SweepLeftPlaces(): the first look through may be long ago, or by another clock.
     SweepPlace(map, id, proposal, options_.objects.view);
     changes_.OnGone(map, id, now, evidence.num_through, session);
     return true;
