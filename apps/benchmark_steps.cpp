@@ -76,7 +76,11 @@ std::vector<std::string> RunWords(const BenchmarkArguments& arguments, const Pla
   }
   if (!arguments.model.empty()) add({"--model", arguments.model});
   words.insert(words.end(), arguments.run_options.begin(), arguments.run_options.end());
-  if (run.layer == ObjectLayer::kOff) add({"--set", "mapping.objects.enabled=false"});
+  // People and what moves are left out all the same.
+  if (run.layer == ObjectLayer::kOff) {
+    add({"--set", "mapping.objects.enabled=false"});
+    add({"--set", "tracking.objects.label_movable=false"});
+  }
   return words;
 }
 

@@ -52,6 +52,13 @@ class FinishedTest(CliTestCase):
         self.assertIn("| sitting_xyz |", text)
         self.assertIn("Trajectories", self.result.stdout)
 
+    def test_off_means_that_things_count_as_the_room_and_people_do_not(self):
+        off = {"mapping.objects.enabled=false", "tracking.objects.label_movable=false"}
+        for run_name, expected in zip(RUNS, (set(), off)):
+            report = json.loads((self.folder / "runs" / run_name / "run.json").read_text())
+            chosen = {word for word in report["arguments"] if ".objects." in word}
+            self.assertEqual(chosen, expected, run_name)
+
     def test_uses_complete_runs_again_and_shows_others_beside(self):
         others = self.make_folder()
         shutil.copy(self.folder / "runs" / RUNS[0] / "trajectory.txt", others / "sitting_xyz.txt")

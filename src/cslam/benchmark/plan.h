@@ -13,7 +13,7 @@
 
 namespace cslam {
 
-// The object layer of the map.
+// Off: things are the room, and only people and what moves are left out.
 enum class ObjectLayer { kOn, kOff };
 std::string_view NameOf(ObjectLayer layer);  // "on", "off"
 
