@@ -102,7 +102,7 @@ int PrintInfo(const InfoArguments& arguments) {
   TextTable table;
   table.AddRow({"file", arguments.file.string()});
   table.AddRow({"size", fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(size_bytes))});
-  table.AddRow({"format", fmt::format("{}", kMapFormatVersion)});
+  table.AddRow({"format", fmt::format("{}", saved.info.version)});
   table.AddRow({"written by", saved.info.program});
   table.AddRow({"created", saved.info.created.empty() ? "-" : saved.info.created});
   table.AddRow({"camera", CameraText(saved.info.camera)});

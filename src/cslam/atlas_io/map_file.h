@@ -12,13 +12,15 @@
 
 namespace cslam {
 
-inline constexpr int kMapFormatVersion = 2;
+inline constexpr int kMapFormatVersion = 3;        // that is written
+inline constexpr int kOldestMapFormatVersion = 2;  // that is read
 
 // What a map file says about the map as a whole.
 struct MapFileInfo {
-  std::string program;  // that wrote it, with its version
-  std::string created;  // date and time, ISO 8601, UTC
-  CameraConfig camera;  // all but its source is stored
+  int version = kMapFormatVersion;  // of the format that was read; the newest is written
+  std::string program;              // that wrote it, with its version
+  std::string created;              // date and time, ISO 8601, UTC
+  CameraConfig camera;              // all but its source is stored
   std::vector<double> level_scales;
   std::vector<std::string> sessions;  // names of the map's sessions, as far as they have one
 };
@@ -33,8 +35,8 @@ struct SavedMap {
 // the new one is complete. Throws Error if it cannot be written. One call per path at a time.
 void SaveMap(const std::filesystem::path& path, const MapView& map, const MapFileInfo& info);
 
-// Throws Error, one line, for a file that is missing, foreign, from another version, cut off or
-// damaged. What it returns equals what was saved, and its invariants hold.
+// Throws Error, one line, for a file that is missing, foreign, of a version it cannot read, cut
+// off or damaged. What it returns equals what was saved, and its invariants hold.
 SavedMap LoadMap(const std::filesystem::path& path);
 
 // Throws Error, saying what differs, unless the map was made with this camera: points of view and

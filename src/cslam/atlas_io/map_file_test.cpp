@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/atlas_io/map_file.h"
 
+#include "cslam/atlas_io/map_schema.h"
+#include "cslam/atlas_io/object_tables.h"
 #include "cslam/atlas_io/test_atlas.h"
 #include "cslam/util/check.h"
 #include "cslam/util/test_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -134,12 +137,44 @@ TEST(MapFile, SaysWhatAForeignFileIsNot) {
 TEST(MapFile, NamesTheVersionItDoesNotKnow) {
   const TestFolder folder;
   std::string newer = TestFolder::Read(SaveAtlas(folder));
-  newer[63] = 3;
+  newer[63] = 4;
   EXPECT_THAT(LoadError(folder.Write("newer.map", newer)),
-              AllOf(HasSubstr("map format 3"), HasSubstr("up to 2"), HasSubstr("newer.map")));
+              AllOf(HasSubstr("map format 4"), HasSubstr("up to 3"), HasSubstr("newer.map")));
   newer[63] = 1;
   EXPECT_THAT(LoadError(folder.Write("older.map", newer)),
               AllOf(HasSubstr("map format 1"), HasSubstr("make it anew"), HasSubstr("older.map")));
+}
+
+// As programs of format 2 wrote it: without the last two columns of the objects.
+void MakeVersion2(const fs::path& path) {
+  SqliteFile file = SqliteFile::OpenForWriting(path);
+  file.Execute("ALTER TABLE objects DROP COLUMN num_unnamed_views");
+  file.Execute("ALTER TABLE objects DROP COLUMN num_named_views");
+  TableReader objects(file, kObjectsTable.name, "*", "id");
+  ReadObjects(objects, 2);
+  file.Execute(
+      fmt::format("UPDATE checksums SET crc32 = {} WHERE name = 'objects'", objects.crc()));
+  file.Execute("PRAGMA user_version = 2");
+}
+
+TEST(MapFile, IsReadThoughItIsOfVersion2) {
+  const TestFolder folder;
+  const Map map = test::MakeAtlas();
+  const fs::path path = SaveAtlas(folder, map);
+  MakeVersion2(path);
+  const SavedMap old = LoadMap(path);
+  EXPECT_EQ(old.info.version, 2);
+  ASSERT_EQ(old.map.num_object_ids(), map.num_object_ids());
+  for (std::size_t i = 0; i < map.num_object_ids(); ++i) {
+    MapObject object = map.ObjectSlot(i);
+    EXPECT_GT(object.num_named_views, 0);
+    object.num_named_views = object.num_unnamed_views = 0;  // nobody had kept them
+    EXPECT_TRUE(test::AreEqual(object, old.map.ObjectSlot(i))) << i;
+  }
+  EXPECT_EQ(old.map.changes(), map.changes());
+  EXPECT_EQ(old.map.num_points(), map.num_points());
+  SaveMap(folder / "new.map", old.map, old.info);
+  EXPECT_EQ(LoadMap(folder / "new.map").info.version, kMapFormatVersion);
 }
 
 TEST(MapFile, IsRefusedWhereverItIsCutOff) {

@@ -51,7 +51,8 @@ class FileHeader {
   bool is_complete_ = false;
 };
 
-void CheckHeader(const fs::path& path) {
+// Returns the version of the format.
+int CheckHeader(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
     throw Error("there is no map file '{}'", path.string());
@@ -65,24 +66,25 @@ void CheckHeader(const fs::path& path) {
     throw Error("'{}' has map format {}, this program knows formats up to {}; use a newer one",
                 path.string(), header.user_version(), kMapFormatVersion);
   }
-  if (header.user_version() < std::uint32_t{kMapFormatVersion}) {
+  if (header.user_version() < std::uint32_t{kOldestMapFormatVersion}) {
     throw Error(
-        "'{}' has map format {}, this program knows format {} only; make it anew with "
+        "'{}' has map format {}, this program knows formats from {} on; make it anew with "
         "'run --save-map'",
-        path.string(), header.user_version(), kMapFormatVersion);
+        path.string(), header.user_version(), kOldestMapFormatVersion);
   }
   const std::uintmax_t expected = std::uintmax_t{header.page_bytes()} * header.num_pages();
   if (size != expected) {
     throw Error("'{}' is damaged: it has {} bytes instead of {}; take an older copy", path.string(),
                 size, expected);
   }
+  return static_cast<int>(header.user_version());
 }
 
 // Neither more nor other than what we write: a view or trigger could do anything.
-void CheckSchema(const SqliteFile& file) {
+void CheckSchema(const SqliteFile& file, int version) {
   TableReader row(file, "sqlite_schema", "sql", "rowid");
   for (const MapTable& table : kMapTables) {
-    if (!row.NextRow() || row.IsNull() || row.Text() != CreateTableSql(table)) {
+    if (!row.NextRow() || row.IsNull() || row.Text() != CreateTableSql(table, version)) {
       throw Error("its tables are not those of a map");
     }
   }
@@ -266,9 +268,9 @@ void CheckChecksum(TableReader& checksums, const MapTable& table, const TableRea
   }
 }
 
-SavedMap ReadDatabase(const fs::path& path) {
+SavedMap ReadDatabase(const fs::path& path, int version) {
   const SqliteFile file = SqliteFile::OpenForReading(path);
-  CheckSchema(file);
+  CheckSchema(file, version);
   TableReader checksums(file, kChecksumsTable.name, "*", "id");
   const auto read = [&](const MapTable& table, auto&& read_rows) {
     TableReader row(file, table.name, "*", "id");
@@ -277,6 +279,7 @@ SavedMap ReadDatabase(const fs::path& path) {
     return rows;
   };
   MapFileInfo info = read(kInfoTable, ReadInfo);
+  info.version = version;
   info.level_scales = read(kLevelsTable, ReadLevels);
   const ImageBounds bounds = CheckedBounds(info.camera.camera);
   MapContents contents;
@@ -284,7 +287,8 @@ SavedMap ReadDatabase(const fs::path& path) {
   contents.keyframes =
       read(kKeyframesTable, [&](TableReader& row) { return ReadKeyframes(row, bounds); });
   contents.points = read(kPointsTable, ReadPoints);
-  contents.objects = read(kObjectsTable, ReadObjects);
+  contents.objects =
+      read(kObjectsTable, [&](TableReader& row) { return ReadObjects(row, version); });
   contents.changes = read(kChangesTable, ReadChanges);
   contents.loops = read(kLoopsTable, ReadLoops);
   contents.sessions =
@@ -297,9 +301,9 @@ SavedMap ReadDatabase(const fs::path& path) {
 }  // namespace
 
 SavedMap LoadMap(const fs::path& path) {
-  CheckHeader(path);
+  const int version = CheckHeader(path);
   try {
-    return ReadDatabase(path);
+    return ReadDatabase(path, version);
   } catch (const Error& error) {
     throw Error("'{}' is damaged: {}; take an older copy", path.string(), error.what());
   }

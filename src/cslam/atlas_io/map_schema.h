@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/atlas_io/map_file.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 // Private to the writer and the reader of map files.
 namespace cslam {
@@ -50,8 +53,12 @@ inline constexpr MapTable kObjectsTable{
     " box_x_min, box_y_min, box_x_max, box_y_max, track INTEGER,"
     " first_keyframe INTEGER, arrived_keyframe INTEGER, last_keyframe INTEGER,"
     " first_seen_ns INTEGER, last_seen_ns INTEGER, absent_since_ns INTEGER,"
-    " first_session INTEGER, last_session INTEGER, num_sightings INTEGER, history BLOB",
-    45};
+    " first_session INTEGER, last_session INTEGER, num_sightings INTEGER, history BLOB,"
+    " num_named_views INTEGER, num_unnamed_views INTEGER",
+    47};
+// Of these the last ones came with version 3.
+inline constexpr std::string_view kObjectColumnsSince3 =
+    ", num_named_views INTEGER, num_unnamed_views INTEGER";
 inline constexpr MapTable kChangesTable{
     "changes",
     "id INTEGER PRIMARY KEY, kind INTEGER, object INTEGER, new_object INTEGER,"
@@ -74,8 +81,12 @@ inline constexpr std::array kMapTables = {kInfoTable,   kLevelsTable,   kKeyfram
 inline constexpr std::size_t kAppearanceBytes = 6 * sizeof(float) + 32;
 
 // As SQLite keeps it, letter by letter.
-inline std::string CreateTableSql(const MapTable& table) {
-  return std::string("CREATE TABLE ") + table.name + "(" + table.columns + ")";
+inline std::string CreateTableSql(const MapTable& table, int version = kMapFormatVersion) {
+  std::string_view columns = table.columns;
+  if (version < 3 && columns.ends_with(kObjectColumnsSince3)) {
+    columns.remove_suffix(kObjectColumnsSince3.size());
+  }
+  return std::string("CREATE TABLE ") + table.name + "(" + std::string(columns) + ")";
 }
 
 // The column keyframes.state.

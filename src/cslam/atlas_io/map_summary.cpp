@@ -52,7 +52,7 @@ Json SessionJson(const SessionSummary& session) {
 
 Json HeadJson(const MapFileInfo& info) {
   return {{"format", "map"},
-          {"version", kMapFormatVersion},
+          {"version", info.version},
           {"program", info.program},
           {"created", info.created},
           {"camera", CameraJson(info.camera)}};

@@ -228,10 +228,12 @@ void WriteObject(TableWriter& row, const MapObject& object) {
   WriteSurface(row, object.surface.get());
   WriteSightings(row, object);
   row.BlobCopy(PackHistory(object.history));
+  row.Int(object.num_named_views);
+  row.Int(object.num_unnamed_views);
   row.EndRow();
 }
 
-MapObject ReadObject(TableReader& row) {
+MapObject ReadObject(TableReader& row, int version) {
   constexpr int kMaxClass = std::numeric_limits<std::int16_t>::max();
   MapObject object;
   object.id = ObjectId(ReadRowId(row));
@@ -251,6 +253,10 @@ MapObject ReadObject(TableReader& row) {
   object.surface = ReadSurface(row);
   ReadSightings(row, object);
   object.history = UnpackHistory(row.Blob());
+  if (version >= 3) {
+    object.num_named_views = ReadInt(row, 0, kMaxInt);
+    object.num_unnamed_views = ReadInt(row, 0, kMaxInt);
+  }
   return object;
 }
 
@@ -278,10 +284,10 @@ void WriteObjects(TableWriter& row, const MapView& map) {
     WriteObject(row, map.ObjectSlot(i));
 }
 
-std::vector<MapObject> ReadObjects(TableReader& row) {
+std::vector<MapObject> ReadObjects(TableReader& row, int version) {
   std::vector<MapObject> objects;
   while (row.NextRow())
-    objects.push_back(ReadObject(row));
+    objects.push_back(ReadObject(row, version));
   return objects;
 }
 

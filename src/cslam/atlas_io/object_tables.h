@@ -11,7 +11,7 @@
 namespace cslam {
 
 void WriteObjects(TableWriter& row, const MapView& map);
-std::vector<MapObject> ReadObjects(TableReader& row);
+std::vector<MapObject> ReadObjects(TableReader& row, int version);  // of the file's format
 
 void WriteChanges(TableWriter& row, const MapView& map);
 std::vector<MapChange> ReadChanges(TableReader& row);

@@ -91,6 +91,8 @@ inline MapObject MakeObject(KeyframeId reference, MapId map) {
   object.last_seen = Stamp{2'000};
   object.absent_since = Stamp{3'000};
   object.num_sightings = 6;
+  object.num_named_views = 5;
+  object.num_unnamed_views = 2;
   object.history = {{Stamp{1'000}, 0.5F, BeliefCause::kCreated},
                     {Stamp{2'000}, 0.8F, BeliefCause::kSeen}};
   return object;
@@ -210,7 +212,8 @@ inline bool AreEqual(const MapObject& a, const MapObject& b) {
       a.last_keyframe == b.last_keyframe && a.first_seen == b.first_seen &&
       a.last_seen == b.last_seen && a.absent_since == b.absent_since &&
       a.first_session == b.first_session && a.last_session == b.last_session &&
-      a.num_sightings == b.num_sightings;
+      a.num_sightings == b.num_sightings && a.num_named_views == b.num_named_views &&
+      a.num_unnamed_views == b.num_unnamed_views;
   return a.id == b.id && a.map == b.map && a.state == b.state && a.merged_into == b.merged_into &&
          a.log_odds == b.log_odds && a.is_active == b.is_active && a.reference == b.reference &&
          a.history == b.history && has_equal_look && has_equal_sightings;

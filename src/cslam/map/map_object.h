@@ -106,7 +106,7 @@ struct MapObject {
   std::uint32_t first_session = 0;
   std::uint32_t last_session = 0;
   std::int32_t num_sightings = 0;  // keyframes in which it was detected
-  // Frames of this session that had it wholly in view, near by, with and without its detection.
+  // Frames that had it wholly in view, near by, with and without its detection.
   std::int32_t num_named_views = 0;
   std::int32_t num_unnamed_views = 0;
   std::vector<BeliefStep> history;
