@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace cslam {
@@ -22,15 +23,19 @@ bool SitsOn(const Box& a, const Box& b) {
 std::vector<std::size_t> FrontToBack(const std::vector<Detection>& detections,
                                      const std::vector<DepthRegion>& regions) {
   std::vector<std::size_t> left(detections.size());
-  for (std::size_t i = 0; i < left.size(); ++i)
-    left[i] = i;
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  std::vector<int> num_on(detections.size());  // of those left that sit on it
+  const auto count = [&](std::size_t upper, int change) {
+    for (const std::size_t i : left) {
+      if (i != upper && SitsOn(detections[upper].box, detections[i].box)) num_on[i] += change;
+    }
+  };
+  for (const std::size_t i : left)
+    count(i, 1);
   const auto rank = [&](std::size_t i) {
     const bool is_person = detections[i].class_id == kPersonClass;
-    const bool carries = std::any_of(left.begin(), left.end(), [&](std::size_t j) {
-      return j != i && SitsOn(detections[j].box, detections[i].box);
-    });
     const float z = regions[i].empty() ? std::numeric_limits<float>::max() : regions[i].median_m;
-    return std::tuple(!is_person, carries, z, i);
+    return std::tuple(!is_person, num_on[i] > 0, z, i);
   };
   std::vector<std::size_t> order;
   while (!left.empty()) {
@@ -38,6 +43,7 @@ std::vector<std::size_t> FrontToBack(const std::vector<Detection>& detections,
         left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
     order.push_back(*next);
     left.erase(next);
+    count(order.back(), -1);
   }
   return order;
 }
