@@ -146,6 +146,24 @@ TEST_F(ObjectTrackerTest, NeverCallsAChairMovingThatAWalkerHides) {
   EXPECT_FALSE(ever_moving);
 }
 
+TEST_F(ObjectTrackerTest, TellsNoSightingsOfAChairWhileItIsCarried) {
+  constexpr int kCarriedFrom = 30;
+  constexpr int kCarriedTo = 120;
+  constexpr int kNoticedAfter = 15;
+  constexpr double kStepM = 0.02;  // a frame: 0.6 m/s
+  for (int i = 0; i < kCarriedTo + 60; ++i) {
+    cv::Mat depth = Wall(4.0);
+    const double x = -0.9 + kStepM * (std::clamp(i, kCarriedFrom, kCarriedTo) - kCarriedFrom);
+    PlayDetected(depth, {{kChair, DrawPanel(depth, x, 0.2, 2.0, 0.5, 0.8)}});
+    const bool is_carried = i >= kCarriedFrom + kNoticedAfter && i < kCarriedTo;
+    const bool rests = i < kCarriedFrom || i >= kCarriedTo + kNoticedAfter;
+    const std::size_t num_told = tracker_->Sightings().size();
+    if (is_carried || rests) {
+      EXPECT_EQ(num_told, rests ? 1U : 0U) << "frame " << i;
+    }
+  }
+}
+
 TEST_F(ObjectTrackerTest, KeepsTwoThingsOfAClassApartWithTiesGoingToTheOlder) {
   cv::Mat depth = Wall(4.0);
   const Box left = DrawPanel(depth, -0.6, 0.2, 2.0, 0.5, 0.8);
