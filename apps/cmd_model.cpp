@@ -22,6 +22,7 @@
 
 #include "child_process.h"
 #include "cli_common.h"
+#include "cmd_model_detect.h"
 #include "exit_codes.h"
 
 namespace cslam {
@@ -183,12 +184,13 @@ void AddInfo(CLI::App& group, int& exit_code) {
 }  // namespace
 
 CLI::App* AddModelCommand(CLI::App& root, int& exit_code) {
-  CLI::App* const app =
-      root.add_subcommand("model", "The networks that find people and things: install, list, info");
+  CLI::App* const app = root.add_subcommand(
+      "model", "The networks that find people and things: install, list, info, detect");
   app->require_subcommand(1);
   AddInstall(*app, exit_code);
   AddList(*app, exit_code);
   AddInfo(*app, exit_code);
+  AddModelDetectCommand(*app, exit_code);
   AddExamples(*app, {"model install", "model list", "model info"});
   return app;
 }

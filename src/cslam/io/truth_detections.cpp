@@ -40,15 +40,16 @@ RecordedFrame ReadFrame(const JsonValue& value) {
   return frame;
 }
 
+// One detection a line: such files are looked at and compared by people, too. Numbers are exact, so
+// that a run on what was recorded is the run that it was recorded from.
 std::string FormatDetection(const RecordedDetection& d) {
   return fmt::format(
       "{{\"instance\": {}, \"class_id\": {}, \"score\": {}, \"box_px\": [{}, {}, {}, {}], "
       "\"visible_px\": {}}}",
-      d.instance, d.class_id, JsonNumber(d.score), JsonNumber(d.box.x_min), JsonNumber(d.box.y_min),
-      JsonNumber(d.box.x_max), JsonNumber(d.box.y_max), d.visible_px);
+      d.instance, d.class_id, d.score, d.box.x_min, d.box.y_min, d.box.x_max, d.box.y_max,
+      d.visible_px);
 }
 
-// One detection a line: such files are looked at and compared by people, too.
 std::string FormatFrame(const RecordedFrame& frame) {
   std::string text = fmt::format("    {{\"stamp\": {}, \"detections\": [", JsonStamp(frame.stamp));
   for (std::size_t i = 0; i < frame.detections.size(); ++i)

@@ -7,6 +7,7 @@
 namespace cslam {
 
 class OptionList;
+struct DetectionRecord;
 struct ModelDescription;
 
 // How a recorded detector is made worse, to see what detections of less quality cost.
@@ -22,8 +23,8 @@ struct DetectorOptions {
   std::string kind = "dnn";  // "dnn", "recorded" or "none"
   std::string model;         // dnn: name of an installed one, or a file; empty: the best installed
   std::string detections;    // recorded: file in the format of detections.json
-  double person_threshold = 0.0;  // score; 0: as the model's description says
-  double object_threshold = 0.0;  // of all other classes; 0: as the model's description says
+  double person_threshold = 0.0;  // score; 0: as the model's description says, or all recorded
+  double object_threshold = 0.0;  // of all other classes; 0: likewise
   std::string class_thresholds;   // "chair=0.5,tv=0.3": after the two above
   double nms_iou = 0.0;           // 0: as the model's description says
   int threads = 1;                // of OpenCV
@@ -35,5 +36,7 @@ void Describe(OptionList& list, DetectorOptions& o);
 
 // Puts the options' thresholds into a model's description. Throws Error for an unknown class.
 void ApplyOptions(const DetectorOptions& options, ModelDescription& model);
+// The same for what was recorded, which has no thresholds of its own.
+void ApplyOptions(const DetectorOptions& options, DetectionRecord& record);
 
 }  // namespace cslam

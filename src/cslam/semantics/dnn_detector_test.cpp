@@ -21,26 +21,11 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kSize = 32;
-constexpr int kNumChannels = 80 + 4 * 8;
+using test::BrightnessNetwork;
 
-// Sees a person wherever the first channel of an 8 x 8 cell is bright, one cell in size. With the
-// mean 0 and the deviation 255, 64 px of brightness v give the logit 64 * v / 255 * 0.25 - 9.
-std::string BrightnessNetwork(std::size_t channel) {
-  std::vector<float> weights(kNumChannels * 3, 0.0F);
-  weights[channel] = 0.25F;
-  std::vector<float> biases(kNumChannels, -20.0F);
-  biases[0] = -9.0F;
-  const std::array<std::size_t, 4> bins{0, 0, 1, 1};  // left, top, right, bottom in cells
-  for (std::size_t side = 0; side < 4; ++side)
-    biases[80 + side * 8 + bins[side]] = 20.0F;
-  return test::ConvolutionOnnx(kSize, kNumChannels, weights, biases);
-}
-
-constexpr const char* kYaml =
-    "decoder: nanodet-plus\nwidth: 32\nheight: 32\nstrides: \"8\"\n"
-    "deviation: {first: 255, second: 255, third: 255}\n";
-constexpr const char* kNoMean = "mean: {first: 0, second: 0, third: 0}\n";
+constexpr int kSize = test::kBrightnessSize;
+constexpr const char* kYaml = test::kBrightnessYaml;
+constexpr const char* kNoMean = test::kBrightnessMean;
 
 // An image of twice the input's width whose cell at column 2, row 1 is bright in one channel.
 RgbdFrame MakeFrame(int channel) {

@@ -33,9 +33,11 @@ MadeDetector MakeDnn(const DetectorOptions& options) {
 MadeDetector MakeRecorded(const DetectorOptions& options) {
   if (options.detections.empty())
     throw Error("detector 'recorded' needs --detections FILE (a detections.json)");
-  return {std::make_unique<RecordedDetector>(ReadDetections(options.detections), options.detections,
-                                             options.degrade),
-          ""};
+  DetectionRecord record = ReadDetections(options.detections);
+  ApplyOptions(options, record);
+  return {
+      std::make_unique<RecordedDetector>(std::move(record), options.detections, options.degrade),
+      ""};
 }
 
 }  // namespace

@@ -128,6 +128,10 @@ TEST(MakeDetector, ReadsRecordedDetectionsFromTheirFile) {
   const Detections found = made.detector->Detect(frame);
   ASSERT_EQ(found.objects.size(), 1U);
   EXPECT_EQ(found.objects[0].box, (Box{10, 10, 20, 40}));
+  options.person_threshold = 0.95;
+  EXPECT_EQ(MakeDetector(options).detector->Detect(frame).objects.size(), 1U);
+  options.class_thresholds = "person=1.5";
+  EXPECT_TRUE(MakeDetector(options).detector->Detect(frame).objects.empty());
   options.detections = (folder / "none.json").string();
   EXPECT_THAT(MessageOf([&] { MakeDetector(options); }), HasSubstr("none.json"));
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -69,5 +71,25 @@ inline std::string ConvolutionOnnx(int size, int num_outputs, const std::vector<
       Bytes(12, TensorInfo("out", {1, num_outputs, grid, grid}));
   return Number(1, 6) + Bytes(7, graph) + Bytes(8, Bytes(1, "") + Number(2, 11));
 }
+
+// Of kBrightnessSize px, in the layout of NanoDet-Plus: sees a person wherever one channel of an
+// 8 x 8 cell is bright, one cell in size. With the mean 0 and the deviation 255, 64 px of
+// brightness v give the logit 64 * v / 255 * 0.25 - 9.
+constexpr int kBrightnessSize = 32;
+inline std::string BrightnessNetwork(std::size_t channel) {
+  constexpr int kNumChannels = 80 + 4 * 8;
+  std::vector<float> weights(kNumChannels * 3, 0.0F);
+  weights[channel] = 0.25F;
+  std::vector<float> biases(kNumChannels, -20.0F);
+  biases[0] = -9.0F;
+  const std::array<std::size_t, 4> bins{0, 0, 1, 1};  // left, top, right, bottom in cells
+  for (std::size_t side = 0; side < 4; ++side)
+    biases[80 + side * 8 + bins[side]] = 20.0F;
+  return ConvolutionOnnx(kBrightnessSize, kNumChannels, weights, biases);
+}
+constexpr const char* kBrightnessYaml =
+    "decoder: nanodet-plus\nwidth: 32\nheight: 32\nstrides: \"8\"\n"
+    "deviation: {first: 255, second: 255, third: 255}\n";
+constexpr const char* kBrightnessMean = "mean: {first: 0, second: 0, third: 0}\n";
 
 }  // namespace cslam::test
