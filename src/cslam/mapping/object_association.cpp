@@ -91,6 +91,12 @@ double ExtentAcross(std::span<const Eigen::Vector3f> points_camera) {
   return extent_m;
 }
 
+bool AreOfOneSize(const OrientedBox& a, const OrientedBox& b, double min_ratio) {
+  const double a_m = a.size_m.maxCoeff();
+  const double b_m = b.size_m.maxCoeff();
+  return std::min(a_m, b_m) >= min_ratio * std::max(a_m, b_m);
+}
+
 struct Likeness {
   double score = 0.0;  // 0: another thing
   bool is_on_surface = false;
@@ -129,19 +135,27 @@ Likeness Compare(const MapView& map, const MapObject& object, const PlacedSighti
 
 }  // namespace
 
+PlacedSighting Place(const ObjectSighting& sighting, const DepthRegion& region,
+                     const DepthView& view, const Se3& T_world_camera) {
+  PlacedSighting placed;
+  placed.sighting = &sighting;
+  placed.region = region;
+  placed.points_camera = PointsOfRegion(view, region, kMaxPoints);
+  if (placed.points_camera.empty()) return placed;
+  placed.extent_m = ExtentAcross(placed.points_camera);
+  placed.centroid_world = T_world_camera * MeanOf(placed.points_camera);
+  return placed;
+}
+
 std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sightings,
                                            const DepthView& view, const Se3& T_world_camera,
                                            const ObjectClasses& classes,
                                            const MapObjectOptions& options) {
   std::vector<PlacedSighting> placed;
   for (const ObjectSighting* sighting : Candidates(sightings, classes)) {
-    PlacedSighting one;
-    one.sighting = sighting;
-    one.points_camera = PointsOfRegion(view, sighting->region, kMaxPoints);
-    if (static_cast<int>(one.points_camera.size()) < options.min_voxels) continue;
-    one.extent_m = ExtentAcross(one.points_camera);
-    one.centroid_world = T_world_camera * MeanOf(one.points_camera);
-    placed.push_back(std::move(one));
+    PlacedSighting one = Place(*sighting, sighting->region, view, T_world_camera);
+    if (static_cast<int>(one.points_camera.size()) >= options.min_voxels)
+      placed.push_back(std::move(one));
   }
   return placed;
 }
@@ -207,7 +221,8 @@ std::optional<ObjectId> FindDouble(const MapView& map, const MapObject& object,
                 ReachM(*other.surface));
     // One surface is one thing, whatever it is called; but a bear is no part of its chair.
     const bool is_double = is_alike ? std::max(of_other, of_object) >= options.merge_overlap
-                                    : std::min(of_other, of_object) >= options.same_surface;
+                                    : std::min(of_other, of_object) >= options.same_surface &&
+                                          AreOfOneSize(object.box, other.box, options.same_size);
     if (is_double) return id;
   }
   return std::nullopt;

@@ -15,10 +15,14 @@ namespace cslam {
 // A sighting, measured: what long-term association compares.
 struct PlacedSighting {
   const ObjectSighting* sighting = nullptr;
+  DepthRegion region;                          // the sighting's, or a part of it
   std::vector<Eigen::Vector3f> points_camera;  // of its surface, m
   Eigen::Vector3d centroid_world = Eigen::Vector3d::Zero();
   double extent_m = 0.0;  // across the view
 };
+
+PlacedSighting Place(const ObjectSighting& sighting, const DepthRegion& region,
+                     const DepthView& view, const Se3& T_world_camera);
 
 // Sightings that may become objects of the map: mapped classes, enough surface.
 std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sightings,

@@ -57,25 +57,26 @@ void InheritVotes(Map& map, const MapChange& moved) {
   map.SetObject(std::move(object));
 }
 
-// Adds a change, joined with the best of those that are still single: a thing that moved before
-// one that was replaced, later ones first.
-template <typename JoinWith>
-void AddJoined(Map& map, MapChange change, JoinWith&& join) {
-  std::vector<MapChange> changes = map.changes();
-  std::optional<std::size_t> partner;
-  MapChange best = change;
-  for (std::size_t i = changes.size(); i-- > 0;) {
-    MapChange joined = change;
-    if (!join(joined, changes[i])) continue;
-    if (!partner || (joined.kind == MapChangeKind::kMoved && best.kind != MapChangeKind::kMoved)) {
-      partner = i;
-      best = joined;
-    }
-  }
-  if (partner) changes.erase(changes.begin() + static_cast<std::ptrdiff_t>(*partner));
-  if (best.kind == MapChangeKind::kMoved) InheritVotes(map, best);
-  changes.push_back(best);
-  map.SetChanges(std::move(changes));
+// What a joined change says of the thing that has gone ...
+MapChange GoneHalf(const MapChange& joined) {
+  MapChange gone = joined;
+  gone.kind = MapChangeKind::kRemoved;
+  gone.new_object = ObjectId();
+  return gone;
+}
+
+// ... and of the one that has come.
+MapChange ComeHalf(const MapView& map, const MapChange& joined) {
+  MapChange come;
+  come.kind = MapChangeKind::kAdded;
+  come.object = joined.new_object;
+  if (const MapObject* object = map.FindObject(come.object))
+    come.last_seen_there = object->first_seen;
+  come.reported = joined.reported;
+  come.num_seen_views = joined.num_seen_views;
+  come.is_between_sessions = joined.is_between_sessions;
+  come.confidence = joined.confidence;
+  return come;
 }
 
 }  // namespace
@@ -169,35 +170,55 @@ void ChangeList::OnGone(Map& map, ObjectId id, Stamp now, int num_views,
   change.num_absent_views = num_views;
   change.is_between_sessions = object.last_session < session;
   change.confidence = Confidence(map, change);
-  if (TakeOverReplacement(map, change)) return;
-  AddJoined(map, change, [&](MapChange& a, const MapChange& b) { return Join(map, a, b); });
+  AddJoined(map, change);
 }
 
-// Of a chair with a bear on it the chair was replaced, even if the bear was missed first.
-bool ChangeList::TakeOverReplacement(Map& map, const MapChange& removed) const {
-  const MapObject& object = *map.FindObject(removed.object);
-  std::vector<MapChange> changes = map.changes();
-  for (MapChange& change : changes) {
-    const MapObject* smaller = map.FindObject(change.object);
-    if (change.kind != MapChangeKind::kReplaced || smaller == nullptr ||
-        smaller->box.size_m.prod() >= object.box.size_m.prod()) {
-      continue;
-    }
-    MapChange added;
-    added.kind = MapChangeKind::kAdded;
-    added.object = change.new_object;
-    added.reported = change.reported;
-    added.num_seen_views = change.num_seen_views;
-    added.is_between_sessions = change.is_between_sessions;
-    MapChange joined = removed;
-    if (!Join(map, joined, added) || joined.kind != MapChangeKind::kReplaced) continue;
-    change.kind = MapChangeKind::kRemoved;
-    change.new_object = ObjectId();
-    changes.push_back(joined);
-    map.SetChanges(std::move(changes));
-    return true;
+// Whether the change and one that is told are two halves of one, and how well they go together: a
+// thing that moved before one that was replaced. A replacement gives its half away to a move, and
+// to one of a larger thing: of a chair with a bear on it the chair was replaced, even if the bear
+// was missed first.
+std::optional<ChangeList::Pairing> ChangeList::PairUp(const MapView& map, const MapChange& change,
+                                                      const MapChange& told) const {
+  Pairing pairing{change, std::nullopt, 0};
+  if (Join(map, pairing.joined, told)) {
+    pairing.rank = pairing.joined.kind == MapChangeKind::kMoved ? 4 : 1;
+    return pairing;
   }
-  return false;
+  if (told.kind != MapChangeKind::kReplaced) return std::nullopt;
+  const bool is_gone = change.kind == MapChangeKind::kRemoved;
+  const MapChange gone = GoneHalf(told);
+  const MapChange come = ComeHalf(map, told);
+  if (!Join(map, pairing.joined, is_gone ? come : gone)) return std::nullopt;
+  pairing.left_over = is_gone ? gone : come;
+  if (pairing.joined.kind == MapChangeKind::kMoved) {
+    pairing.rank = 3;
+    return pairing;
+  }
+  const MapObject* smaller = map.FindObject(told.object);
+  const bool is_larger =
+      is_gone && smaller != nullptr &&
+      smaller->box.size_m.prod() < map.FindObject(change.object)->box.size_m.prod();
+  pairing.rank = 2;
+  return is_larger ? std::optional(pairing) : std::nullopt;
+}
+
+// Adds a change, joined with the best of those that are told, later ones first. What that leaves
+// over is added in turn; since moves keep their halves and things only get larger, it ends.
+void ChangeList::AddJoined(Map& map, const MapChange& change) const {
+  std::vector<MapChange> changes = map.changes();
+  std::optional<std::size_t> partner;
+  Pairing best{change, std::nullopt, 0};
+  for (std::size_t i = changes.size(); i-- > 0;) {
+    const auto pairing = PairUp(map, change, changes[i]);
+    if (!pairing || pairing->rank <= best.rank) continue;
+    partner = i;
+    best = *pairing;
+  }
+  if (partner) changes.erase(changes.begin() + static_cast<std::ptrdiff_t>(*partner));
+  if (best.joined.kind == MapChangeKind::kMoved) InheritVotes(map, best.joined);
+  changes.push_back(best.joined);
+  map.SetChanges(std::move(changes));
+  if (best.left_over) AddJoined(map, *best.left_over);
 }
 
 // Known better, what was added may turn out to be what is missing elsewhere.
@@ -205,7 +226,7 @@ void ChangeList::RejoinAdded(Map& map, const MapChange& added) const {
   std::vector<MapChange> others = map.changes();
   std::erase(others, added);
   map.SetChanges(std::move(others));
-  AddJoined(map, added, [&](MapChange& a, const MapChange& b) { return Join(map, a, b); });
+  AddJoined(map, added);
 }
 
 void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t session) const {
@@ -229,7 +250,7 @@ void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t sessi
   change.is_between_sessions = before.is_between_sessions;
   change.confidence = Confidence(map, change);
   if (was_empty) {
-    AddJoined(map, change, [&](MapChange& a, const MapChange& b) { return Join(map, a, b); });
+    AddJoined(map, change);
     return;
   }
   // Nobody looked there before: it came only if something like it has gone, or what stood there.

@@ -6,6 +6,8 @@
 #include "cslam/map/map.h"
 #include "cslam/mapping/object_options.h"
 
+#include <optional>
+
 namespace cslam {
 
 // What keyframes saw, before an object was first seen, at the place where it stands.
@@ -43,8 +45,16 @@ class ChangeList {
  private:
   bool LooksLike(const MapObject& a, const MapObject& b) const;
   bool StandsAt(const MapView& map, const MapObject& a, const MapObject& b) const;
+  // Two halves that go together, and what one of them was joined with before.
+  struct Pairing {
+    MapChange joined;
+    std::optional<MapChange> left_over;
+    int rank = 0;  // the higher the better
+  };
+  std::optional<Pairing> PairUp(const MapView& map, const MapChange& change,
+                                const MapChange& told) const;
+  void AddJoined(Map& map, const MapChange& change) const;
   void RejoinAdded(Map& map, const MapChange& added) const;
-  bool TakeOverReplacement(Map& map, const MapChange& removed) const;
   bool Join(const MapView& map, MapChange& change, const MapChange& other) const;
 
   const Camera camera_;

@@ -245,9 +245,23 @@ TEST_F(ChangeListTest, GivesTheReplacementToTheLargerOfTwoThatAreGone) {
   Arrive(AddObject(kHere, 8, 12, kBearClass, 5.0F));
   ASSERT_EQ(Kinds(), std::vector{Kind::kReplaced});
   Leave(chair);
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kReplaced}));
-  EXPECT_EQ(map_.changes()[0].object, small);
-  EXPECT_EQ(map_.changes()[1].object, chair);
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kRemoved}));
+  EXPECT_EQ(map_.changes()[0].object, chair);
+  EXPECT_EQ(map_.changes()[1].object, small);
+}
+
+TEST_F(ChangeListTest, TellsTwoMovesOfThingsThatChangedPlacesWhicheverIsMissedFirst) {
+  const ObjectId chair = AddObject(kHere, 0, 5);
+  const ObjectId bear = AddObject(kThere, 0, 5, kBearClass, 5.0F);
+  Leave(chair);
+  Arrive(AddObject(kHere, 8, 12, kBearClass, 5.0F));
+  ASSERT_EQ(Kinds(), std::vector{Kind::kReplaced}) << "as far as is known by then";
+  Arrive(AddObject(kThere, 9, 12));
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kMoved, Kind::kAdded}));
+  Leave(bear);
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kMoved, Kind::kMoved}));
+  EXPECT_EQ(map_.changes()[0].object, chair);
+  EXPECT_EQ(map_.changes()[1].object, bear);
 }
 
 TEST_F(ChangeListTest, ForgetsMovesOfAThingToItselfWhenTwoBecomeOne) {

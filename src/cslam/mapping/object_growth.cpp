@@ -77,11 +77,11 @@ MapObject ObjectGrowth::WithSighting(const Map& map, MapObject object,
                                      const Eigen::Vector3d& up_world) const {
   const Se3 T_object_camera =
       map.T_world_object(object).Inverse() * map.FindKeyframe(proposal.id)->T_world_camera;
-  const double depth_m = static_cast<double>(sighting.sighting->region.median_m);
+  const double depth_m = static_cast<double>(sighting.region.median_m);
   const double tolerance_m = options_.view.ToleranceM(depth_m);
   object.surface = std::make_shared<const ObjectSurface>(
       WithView(*object.surface, sighting.points_camera, T_object_camera, proposal.objects.view,
-               sighting.sighting->region, tolerance_m));
+               sighting.region, tolerance_m));
   MixColours(object, sighting.sighting->colours);
   AddVote(object, {static_cast<std::int16_t>(sighting.sighting->class_id),
                    static_cast<float>(sighting.sighting->score)});

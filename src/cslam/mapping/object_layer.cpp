@@ -4,6 +4,7 @@
 
 #include "cslam/mapping/object_displacement.h"
 #include "cslam/mapping/object_geometry.h"
+#include "cslam/mapping/object_parting.h"
 #include "cslam/mapping/object_points.h"
 #include "cslam/mapping/structure_refinement.h"
 
@@ -73,8 +74,10 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
     strays_.erase(track);
     const ObjectId id =
         known[i] ? *known[i] : map.AddObject(growth_.Begin(map, map_id_, proposal, sightings[i]));
-    map.SetObject(
-        growth_.WithSighting(map, *map.FindObject(id), proposal, sightings[i], UpWorld()));
+    const PlacedSighting parted =
+        PartFromOthers(map, map_id_, sightings[i], known[i] ? map.FindObject(id) : nullptr, view,
+                       T_world_camera, classes_, options_.objects);
+    map.SetObject(growth_.WithSighting(map, *map.FindObject(id), proposal, parted, UpWorld()));
     report.num_new += known[i] ? 0 : 1;
     objects_of_tracks_[track] = id;
     seen.push_back(id);

@@ -24,6 +24,9 @@ void Describe(OptionList& list, MapObjectOptions& o) {
            "Share of a sighting's surface on an object's from which on they are one.");
   list.Add("same_surface", o.same_surface, {0.0, 1.0}, "",
            "Share of each on the other from which on they are one even if their classes differ.");
+  list.Add("same_size", o.same_size, {0.0, 1.0}, "",
+           "... if the smaller one is so large, as share of the other; a smaller thing of another "
+           "class is no part of a larger one, but sits on it.");
   list.Add("merge_overlap", o.merge_overlap, {0.0, 1.0}, "",
            "Share of the smaller of two objects' surfaces from which on they are one.");
   list.Add("max_union", o.max_union, {1.0, 10.0}, "",

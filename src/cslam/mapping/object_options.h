@@ -32,6 +32,7 @@ struct MapObjectOptions {
   double voxel_m = 0.03;
   double min_overlap = 0.25;
   double same_surface = 0.6;
+  double same_size = 0.7;
   double merge_overlap = 0.4;
   double max_union = 1.4;
   int min_voxels = 4;
