@@ -122,12 +122,15 @@ Likeness Compare(const MapView& map, const MapObject& object, const PlacedSighti
   const double overlap = Overlap(*object.surface, points, ReachM(*object.surface));
   if (!is_alike) return {overlap >= options.same_surface ? 0.5 * overlap : 0.0, true};
   const double nearness = std::max(0.0, 1.0 - distance_m / limit_m);
-  if (overlap >= options.min_overlap) return {overlap + 0.3 * nearness, true};
-  if (distance_m > limit_m || object.state == ObjectState::kAbsent) return {};
+  const bool is_on_surface = overlap >= options.min_overlap;
+  const bool is_gone = object.state == ObjectState::kAbsent;
+  if (is_on_surface && !is_gone) return {overlap + 0.3 * nearness, true};
+  if (!is_on_surface && (is_gone || distance_m > limit_m)) return {};
   const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false};
   const ExpectedView expected =
       LookAtPlace(object.surface->samples, T_camera_object, sampler, 0.0, options.view);
   if (expected.verdict == PlaceVerdict::kLookedThrough) return {};
+  if (is_on_surface) return {overlap + 0.3 * nearness, true};
   if (IsElsewhere(standing)) return {};
   if (UnionSizeM(object.box, points) > options.max_union * limit_m) return {};
   return {overlap + 0.3 * nearness + 1e-3, false};

@@ -34,7 +34,8 @@ std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sight
 // new one. Alike in class, and either on the same surface or within the class distance and not
 // contradicted: the known object is not looked through, does not stand elsewhere in the picture,
 // and both together are no larger than such a thing. Best first; two sightings that are one object
-// must both lie on its surface. Objects that are gone come back only on their own surface.
+// must both lie on its surface. Objects that are gone come back only on their own surface, unless
+// most of that is still looked through: then it is the trail of something that moved slowly.
 std::vector<std::optional<ObjectId>> AssociateSightings(const MapView& map, MapId map_id,
                                                         std::span<const PlacedSighting> sightings,
                                                         const DepthView& view,

@@ -122,6 +122,26 @@ TEST_F(ObjectLayerTest, LeavesNoTrailOfAThingThatIsCarriedThroughView) {
   EXPECT_EQ(map_.changes()[0].kind, MapChangeKind::kMoved);
 }
 
+// A sighting at every step lies on the surface of the last one. That leaves a trail, which goes.
+TEST_F(ObjectLayerTest, FindsAThingThatMovedTooSlowlyToBeSeenMoving) {
+  constexpr int kSteps = 20;  // 10 cm each
+  const Eigen::Vector3d from(-1.0, 0.2, 2.2);
+  const Eigen::Vector3d to(1.0, 0.2, 2.2);
+  room_.things = {Chair(from)};
+  Watch(front_, 5);
+  for (int i = 1; i <= kSteps; ++i) {
+    room_.things[0] = Chair(from + (to - from) * i / kSteps);
+    Watch(front_, 1);
+  }
+  Watch(front_, 10);
+  ASSERT_EQ(Present().size(), 1U);
+  EXPECT_LT((map_.CentroidOf(*map_.FindObject(Present()[0])) - to).head<2>().norm(), 0.2);
+  ASSERT_FALSE(map_.changes().empty());
+  for (const MapChange& change : map_.changes())
+    EXPECT_EQ(change.kind, MapChangeKind::kMoved);
+  EXPECT_EQ(map_.changes().back().new_object, Present()[0]);
+}
+
 TEST_F(ObjectLayerTest, IsOneObjectWhenDetectedTwiceInEachPicture) {
   room_.things = {Chair(kPlace, 1), Chair(kPlace, 2)};
   Watch(front_, 4);
