@@ -115,13 +115,17 @@ void ObjectTracker::TakeIn(const Detections& detections) {
   if (past != history_.end()) Associate(*past, detections.objects);
 }
 
-// Late detections are compared both where they were seen and where they are now.
+// Late detections are compared both where they were seen and where they are now. Of a thing's
+// region little may be left, like the belly of a bear: it is known by lying within the new one.
 std::vector<BoxOverlap> ObjectTracker::Overlaps(const Frame& frame, const Detection& detection,
-                                                std::size_t index, const Box& box_now) const {
+                                                std::size_t index,
+                                                const DepthRegion& region_now) const {
   std::vector<BoxOverlap> overlaps;
   for (const Object& object : objects_) {
     if (object.class_id != detection.class_id && object.class_id >= 0) continue;
-    double iou = Iou(object.box, box_now);
+    double iou = Iou(object.box, frame.id == now_.id ? detection.box : region_now.box);
+    if (!object.is_person() && ShareInside(object.region, region_now) >= options_.min_inside)
+      iou = std::max(iou, options_.min_iou);
     for (const PastObject& past : frame.objects) {
       if (past.id == object.id) iou = std::max(iou, Iou(past.box, detection.box));
     }
@@ -135,18 +139,33 @@ void ObjectTracker::Associate(const Frame& frame, const std::vector<Detection>& 
   std::vector<DepthRegion> regions = SegmentDetections(frame.view, detections, options_.region);
   std::vector<BoxOverlap> overlaps;
   for (std::size_t d = 0; d < detections.size(); ++d) {
-    Box box_now = detections[d].box;
-    if (is_late) {
-      Object stranger;
-      stranger.class_id = detections[d].class_id;
-      box_now = Carried(frame, regions[d], stranger).box;
-    }
-    const std::vector<BoxOverlap> more = Overlaps(frame, detections[d], d, box_now);
+    Object stranger;
+    stranger.class_id = detections[d].class_id;
+    const std::vector<BoxOverlap> more = Overlaps(
+        frame, detections[d], d, is_late ? Carried(frame, regions[d], stranger) : regions[d]);
     overlaps.insert(overlaps.end(), more.begin(), more.end());
   }
   const auto match = MatchBestFirst(std::move(overlaps), detections.size());
   for (std::size_t d = 0; d < detections.size(); ++d)
     Renew(match[d], detections[d], std::move(regions[d]), frame);
+  std::vector<TrackId> renewed;
+  for (const Object& object : objects_) {
+    if (object.detected == frame.stamp && !object.is_person() && object.class_id >= 0)
+      renewed.push_back(object.id);
+  }
+  for (const TrackId id : renewed)
+    ForgetPiecesOf(id);
+}
+
+// What is carried on inside a thing of the same name that was just detected is a piece of it.
+void ObjectTracker::ForgetPiecesOf(TrackId whole) {
+  const auto object = std::find_if(objects_.begin(), objects_.end(),
+                                   [&](const Object& o) { return o.id == whole; });
+  const Object known = *object;
+  std::erase_if(objects_, [&](const Object& o) {
+    return o.id != whole && o.class_id == known.class_id && o.detected < known.detected &&
+           ShareInside(o.region, known.region) >= options_.min_inside;
+  });
 }
 
 // A detection updates its object, or becomes a new one.

@@ -114,7 +114,8 @@ class ObjectTracker {
   void TakeIn(const Detections& detections);
   void Associate(const Frame& frame, const std::vector<Detection>& detections);
   std::vector<BoxOverlap> Overlaps(const Frame& frame, const Detection& detection,
-                                   std::size_t index, const Box& box_now) const;
+                                   std::size_t index, const DepthRegion& region_now) const;
+  void ForgetPiecesOf(TrackId whole);
   void Renew(std::optional<TrackId> id, const Detection& detection, DepthRegion region,
              const Frame& frame);
   void Forget();

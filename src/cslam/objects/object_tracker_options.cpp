@@ -18,6 +18,9 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
            "Use movable things again once their filter finds them static.");
   list.Add("min_iou", o.min_iou, {0.01, 1.0}, "",
            "Overlap of boxes from which on a detection is taken for a known object.");
+  list.Add("min_inside", o.min_inside, {0.0, 1.0}, "",
+           "Share of a thing's region that must lie within a detection's for it to be the same, "
+           "or a piece of it; not of people, who stand before one another.");
   list.Add("bridge", o.bridge_s, {0.0, 60.0}, "s",
            "How long an object is carried on by its depth while the detector misses it.");
   list.Add("first_bridge", o.first_bridge_s, {0.0, 60.0}, "s",

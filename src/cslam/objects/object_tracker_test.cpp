@@ -164,6 +164,20 @@ TEST_F(ObjectTrackerTest, TellsNoSightingsOfAChairWhileItIsCarried) {
   }
 }
 
+TEST_F(ObjectTrackerTest, KeepsOneTrackOfAThingThatIsSeenInPieces) {
+  cv::Mat depth = Wall(4.0);
+  const Box whole = DrawPanel(depth, 0.0, 0.0, 2.0, 0.8, 0.8);
+  const Box piece{whole.x_min, whole.y_min, whole.x_min + 0.3 * whole.width(),
+                  whole.y_min + 0.3 * whole.height()};
+  PlayDetected(depth, {{kChair, piece}});
+  ASSERT_EQ(tracker_->objects().size(), 1U);
+  for (int i = 0; i < 3; ++i)
+    PlayDetected(depth, {{kChair, whole}});
+  ASSERT_EQ(tracker_->objects().size(), 1U);
+  EXPECT_EQ(tracker_->objects()[0].track, TrackId(0));
+  EXPECT_GT(Iou(tracker_->objects()[0].box, whole), 0.9);
+}
+
 TEST_F(ObjectTrackerTest, KeepsTwoThingsOfAClassApartWithTiesGoingToTheOlder) {
   cv::Mat depth = Wall(4.0);
   const Box left = DrawPanel(depth, -0.6, 0.2, 2.0, 0.5, 0.8);
