@@ -136,7 +136,40 @@ Likeness Compare(const MapView& map, const MapObject& object, const PlacedSighti
   return {overlap + 0.3 * nearness + 1e-3, false};
 }
 
+// Whether the object was in sight just before, or has the colours of the sighting.
+bool IsRecognised(const MapObject& object, const ObjectSighting& sighting,
+                  const SeenBefore& seen_before, const MapObjectOptions& options) {
+  const auto seen = seen_before.find(object.id);
+  if (seen == seen_before.end() ||
+      SecondsBetween(sighting.detected, seen->second) < options.recognise_after_s) {
+    return true;
+  }
+  return ColourLikeness(object.colours, sighting.colours) >= options.min_likeness;
+}
+
+// Whether one thing may have been taken for the two. What is too large for its name is no such
+// thing, of which what has the right size could be a piece.
+bool MayBeOne(const MapObject& a, const MapObject& b, const ObjectClasses& classes,
+              const MapObjectOptions& options) {
+  const auto is_too_large = [&](const MapObject& object) {
+    return classes.IsTooLarge(object.class_id, object.box.size_m.maxCoeff());
+  };
+  if (classes.AreAlike(a.class_id, b.class_id) && is_too_large(a) != is_too_large(b)) return false;
+  const bool were_seen_apart =
+      a.last_keyframe < b.first_keyframe || b.last_keyframe < a.first_keyframe;
+  return !were_seen_apart || ColourLikeness(a.colours, b.colours) >= options.min_likeness;
+}
+
 }  // namespace
+
+SeenBefore WhenSeen(const MapView& map, MapId map_id) {
+  SeenBefore seen;
+  for (const ObjectId id : map.Objects()) {
+    const MapObject& object = *map.FindObject(id);
+    if (object.map == map_id) seen[id] = object.last_seen;
+  }
+  return seen;
+}
 
 PlacedSighting Place(const ObjectSighting& sighting, const DepthRegion& region,
                      const DepthView& view, const Se3& T_world_camera) {
@@ -163,12 +196,10 @@ std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sight
   return placed;
 }
 
-std::vector<std::optional<ObjectId>> AssociateSightings(const MapView& map, MapId map_id,
-                                                        std::span<const PlacedSighting> sightings,
-                                                        const DepthView& view,
-                                                        const Se3& T_world_camera,
-                                                        const ObjectClasses& classes,
-                                                        const MapObjectOptions& options) {
+std::vector<std::optional<ObjectId>> AssociateSightings(
+    const MapView& map, MapId map_id, std::span<const PlacedSighting> sightings,
+    const DepthView& view, const Se3& T_world_camera, const SeenBefore& seen_before,
+    const ObjectClasses& classes, const MapObjectOptions& options) {
   struct Pair {
     Likeness likeness;
     std::size_t sighting = 0;
@@ -179,6 +210,7 @@ std::vector<std::optional<ObjectId>> AssociateSightings(const MapView& map, MapI
     const MapObject& object = *map.FindObject(id);
     if (object.map != map_id || !object.surface) continue;
     for (std::size_t i = 0; i < sightings.size(); ++i) {
+      if (!IsRecognised(object, *sightings[i].sighting, seen_before, options)) continue;
       const Likeness likeness =
           Compare(map, object, sightings[i], view, T_world_camera, classes, options);
       if (likeness.score > 0.0) pairs.push_back({likeness, i, id});
@@ -207,7 +239,7 @@ std::optional<ObjectId> FindDouble(const MapView& map, const MapObject& object,
   for (const ObjectId id : map.Objects()) {
     const MapObject& other = *map.FindObject(id);
     if (id == object.id || other.map != object.map || !other.surface ||
-        other.state == ObjectState::kAbsent) {
+        other.state == ObjectState::kAbsent || !MayBeOne(object, other, classes, options)) {
       continue;
     }
     const Se3 T_object_other = T_object_world * map.T_world_object(other);

@@ -6,6 +6,7 @@
 #include "cslam/mapping/object_options.h"
 #include "cslam/objects/object_sighting.h"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,21 +31,24 @@ std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sight
                                            const ObjectClasses& classes,
                                            const MapObjectOptions& options);
 
+// When each object was seen last, before the keyframe at hand.
+using SeenBefore = std::map<ObjectId, Stamp>;
+SeenBefore WhenSeen(const MapView& map, MapId map_id);
+
 // Long-term association (Algorithm 3): the object of the map that each sighting shows; nullopt: a
 // new one. Alike in class, and either on the same surface or within the class distance and not
 // contradicted: the known object is not looked through, does not stand elsewhere in the picture,
 // and both together are no larger than such a thing. Best first; two sightings that are one object
 // must both lie on its surface. Objects that are gone come back only on their own surface, unless
 // most of that is still looked through: then it is the trail of something that moved slowly.
-std::vector<std::optional<ObjectId>> AssociateSightings(const MapView& map, MapId map_id,
-                                                        std::span<const PlacedSighting> sightings,
-                                                        const DepthView& view,
-                                                        const Se3& T_world_camera,
-                                                        const ObjectClasses& classes,
-                                                        const MapObjectOptions& options);
+std::vector<std::optional<ObjectId>> AssociateSightings(
+    const MapView& map, MapId map_id, std::span<const PlacedSighting> sightings,
+    const DepthView& view, const Se3& T_world_camera, const SeenBefore& seen_before,
+    const ObjectClasses& classes, const MapObjectOptions& options);
 
 // An object that is another one seen twice, if there is one: alike, and the smaller surface lies on
-// the larger. Neither may be gone.
+// the larger. Neither may be gone, nor may they differ in colour if one was only seen before the
+// other.
 std::optional<ObjectId> FindDouble(const MapView& map, const MapObject& object,
                                    const ObjectClasses& classes, const MapObjectOptions& options);
 

@@ -58,7 +58,8 @@ class AssociationTest : public testing::Test {
                                                  const Se3& T_world_camera = {}) const {
     const auto placed =
         PlaceSightings(seen.sightings, seen.view, T_world_camera, classes_, options_);
-    return AssociateSightings(map_, map, placed, seen.view, T_world_camera, classes_, options_);
+    return AssociateSightings(map_, map, placed, seen.view, T_world_camera, seen_before_, classes_,
+                              options_);
   }
   std::optional<ObjectId> FindDouble(ObjectId id) const {
     return cslam::FindDouble(map_, *map_.FindObject(id), classes_, options_);
@@ -69,6 +70,7 @@ class AssociationTest : public testing::Test {
   const MapObjectOptions options_;
   const ObjectClasses classes_{ObjectClassOptions{}};
   Map map_;
+  SeenBefore seen_before_;  // nothing: all was in sight just now
 };
 
 TEST_F(AssociationTest, PlacesWhatHasANameAndASurface) {
@@ -145,6 +147,40 @@ TEST_F(AssociationTest, FindsDoublesOnOneSurfaceUnlessOneIsGone) {
   map_.SetObject(gone);
   EXPECT_EQ(FindDouble(chair), std::nullopt);
   EXPECT_EQ(FindDouble(twin), std::nullopt);
+}
+
+TEST_F(AssociationTest, AsksForTheColoursOfWhatWasOutOfSight) {
+  const ObjectId chair = Know(kPlace);
+  MapObject object = *map_.FindObject(chair);
+  object.colours = test::ColoursWithHue(2.0F);
+  map_.SetObject(std::move(object));
+  ThingView seen = Look(RoomWith(kPlace));
+  ObjectSighting& sighting = seen.sightings.at(0);
+  sighting.detected = Stamp{20'000'000'000};
+  sighting.colours = test::ColoursWithHue(6.0F);
+  seen_before_[chair] = Stamp{19'500'000'000};
+  EXPECT_EQ(Associate(seen), Found{chair}) << "it was there half a second ago";
+  seen_before_[chair] = Stamp{10'000'000'000};
+  EXPECT_EQ(Associate(seen), Found{std::nullopt});
+  sighting.colours = test::ColoursWithHue(2.0F);
+  EXPECT_EQ(Associate(seen), Found{chair});
+}
+
+TEST_F(AssociationTest, DoesNotMergeWhatTookThePlaceOfAnotherColour) {
+  const auto know = [&](float hue, std::uint32_t first, std::uint32_t last) {
+    const ObjectId id = Know(kPlace);
+    MapObject object = *map_.FindObject(id);
+    object.colours = test::ColoursWithHue(hue);
+    object.first_keyframe = KeyframeId(first);
+    object.last_keyframe = KeyframeId(last);
+    map_.SetObject(std::move(object));
+    return id;
+  };
+  know(2.0F, 0, 5);
+  const ObjectId later = know(6.0F, 8, 9);
+  EXPECT_EQ(FindDouble(later), std::nullopt);
+  const ObjectId at_once = know(6.0F, 5, 9);
+  EXPECT_TRUE(FindDouble(at_once).has_value());
 }
 
 }  // namespace

@@ -79,6 +79,21 @@ MapChange ComeHalf(const MapView& map, const MapChange& joined) {
   return come;
 }
 
+// One thing came from one place, or took the place of one: of several changes that say so the first
+// move stays, or the first replacement; the others' things have gone.
+void LeaveToOne(std::vector<MapChange>& changes, ObjectId comer) {
+  const auto says_so = [&](MapChangeKind kind) {
+    return std::find_if(changes.begin(), changes.end(), [&](const MapChange& c) {
+      return c.new_object == comer && c.kind == kind;
+    });
+  };
+  auto stays = says_so(MapChangeKind::kMoved);
+  if (stays == changes.end()) stays = says_so(MapChangeKind::kReplaced);
+  for (auto change = changes.begin(); change != changes.end(); ++change) {
+    if (change->new_object == comer && change != stays) *change = GoneHalf(*change);
+  }
+}
+
 }  // namespace
 
 ViewsBefore LookBack(const MapView& map, const MapObject& object, const Camera& camera,
@@ -319,6 +334,7 @@ void ChangeList::OnMerged(Map& map, ObjectId keep, ObjectId drop) const {
     if (change.new_object == drop) change.new_object = keep;
   }
   std::erase_if(changes, [](const MapChange& c) { return c.object == c.new_object; });
+  LeaveToOne(changes, keep);
   // What came as a whole did not come in another piece as well.
   const std::vector<MapChange> all = changes;
   std::erase_if(changes, [&](const MapChange& c) {

@@ -274,6 +274,21 @@ TEST_F(ChangeListTest, ForgetsMovesOfAThingToItselfWhenTwoBecomeOne) {
   EXPECT_TRUE(map_.changes().empty());
 }
 
+TEST_F(ChangeListTest, LeavesOneMoveToAThingThatWasTakenForTwo) {
+  const ObjectId chair = AddObject(kHere, 0, 5);
+  const ObjectId bear = AddObject(kHere, 0, 5, kBearClass, 5.0F);
+  const ObjectId new_chair = AddObject(kThere, 8, 12);
+  const ObjectId new_bear = AddObject(kThere, 8, 12, kBearClass, 5.0F);
+  Leave(chair);
+  Arrive(new_chair);
+  Leave(bear);
+  Arrive(new_bear);
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kMoved, Kind::kMoved}));
+  list_.OnMerged(map_, new_chair, new_bear);
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kMoved, Kind::kRemoved}));
+  EXPECT_EQ(map_.changes()[0].object, chair);
+}
+
 TEST_F(ChangeListTest, MarksRemovalsOfThingsOfEarlierSessions) {
   session_ = 1;
   Leave(AddObject(kHere, 0, 5));

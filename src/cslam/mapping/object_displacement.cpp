@@ -22,15 +22,16 @@ double ShareInside(const Map& map, const MapObject& object, const MapObject& oth
          static_cast<double>(std::max<std::size_t>(1, object.surface->samples.size()));
 }
 
-// Whether some of it is still to be seen in the keyframe.
+// Whether some of it is still to be seen in the keyframe, and is nothing else.
 bool IsSeenStanding(const Map& map, const MapObject& object, const KeyframeProposal& proposal,
-                    const ExpectedViewOptions& options) {
-  constexpr double kMaxStanding = 0.05;  // of the samples
+                    const ObjectClasses& classes, const ExpectedViewOptions& options) {
+  constexpr double kMaxStanding = 0.25;  // of the samples: floor that passed for part of it
   const DepthView& view = proposal.objects.view;
   if (view.empty()) return false;
   const Se3 T_camera_object =
       map.FindKeyframe(proposal.id)->T_world_camera.Inverse() * map.T_world_object(object);
-  const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false};
+  const cv::Mat others = CoveredByOthers(proposal.objects.sightings, object.class_id, classes);
+  const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false, &others};
   const ExpectedView seen =
       LookAtPlace(object.surface->samples, T_camera_object, sampler, 0.0, options);
   return seen.num_standing > kMaxStanding * seen.num_samples &&
@@ -55,7 +56,7 @@ Displacement FindDisplaced(const Map& map, ObjectId comer_id, const KeyframeProp
       continue;
     }
     if (ShareInside(map, other, comer) < options.min_displaced) continue;
-    if (IsSeenStanding(map, other, proposal, options.view)) {
+    if (IsSeenStanding(map, other, proposal, classes, options.view)) {
       found.still_there.push_back(other_id);
       continue;
     }

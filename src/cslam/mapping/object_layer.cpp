@@ -56,13 +56,14 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
   up_sum_.try_emplace(map_id_, Eigen::Vector3d::Zero()).first->second -=
       T_world_camera.rotation * Eigen::Vector3d::UnitY();
 
+  const SeenBefore seen_before = WhenSeen(map, map_id_);
   report.num_changed += TakeEvidence(map, proposal);
   const DepthView& view = proposal.objects.view;
   if (view.empty()) return report;
   const auto sightings =
       PlaceSightings(proposal.objects.sightings, view, T_world_camera, classes_, options_.objects);
-  const auto known =
-      AssociateSightings(map, map_id_, sightings, view, T_world_camera, classes_, options_.objects);
+  const auto known = AssociateSightings(map, map_id_, sightings, view, T_world_camera, seen_before,
+                                        classes_, options_.objects);
   std::vector<ObjectId> seen;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     const TrackId track = sightings[i].sighting->track;

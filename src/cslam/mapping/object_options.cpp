@@ -34,10 +34,12 @@ void Describe(OptionList& list, MapObjectOptions& o) {
            "than so many class distances: two chairs side by side.");
   list.Add("min_voxels", o.min_voxels, {1, 10'000}, "cells", "Less surface makes no object.");
   list.Add("min_likeness", o.min_likeness, {0.0, 1.0}, "",
-           "Common share of the colours of one thing seen in two places.");
+           "Common share of the colours of one thing seen in two places, or again at its own.");
   list.Add("sure_likeness", o.sure_likeness, {0.0, 1.0}, "",
            "The same where nobody had seen the new place without it: it may have stood there all "
            "along.");
+  list.Add("recognise_after", o.recognise_after_s, {0.0, 3600.0}, "s",
+           "What was out of sight for so long is known by its colours as well.");
   list.Add("max_size_ratio", o.max_size_ratio, {1.0, 10.0}, "",
            "How much larger one may seem than the other.");
   list.Add("replace_distance", o.replace_distance_m, {0.0, 5.0}, "m",

@@ -38,6 +38,7 @@ struct MapObjectOptions {
   int min_voxels = 4;
   double min_likeness = 0.5;
   double sure_likeness = 0.75;
+  double recognise_after_s = 2.0;
   double max_size_ratio = 2.0;
   double replace_distance_m = 0.6;
   int min_views_before = 2;
@@ -46,7 +47,7 @@ struct MapObjectOptions {
   int max_strays = 3;
   int min_doubt_views = 15;
   double min_named_share = 0.2;
-  double min_displaced = 0.5;
+  double min_displaced = 0.4;
   int min_displacing_views = 3;
   ObjectClassOptions classes;
   PersistenceOptions belief;

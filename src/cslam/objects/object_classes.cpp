@@ -98,6 +98,11 @@ double ObjectClasses::SizeWeight(int class_id, double largest_m) const {
   return largest_m >= it->second.first && largest_m <= it->second.second ? 1.0 : wrong_size_weight_;
 }
 
+bool ObjectClasses::IsTooLarge(int class_id, double largest_m) const {
+  const auto it = sizes_m_.find(class_id);
+  return it != sizes_m_.end() && largest_m > it->second.second;
+}
+
 bool ObjectClasses::AreAlike(int a, int b) const {
   if (a == b) return true;
   const auto group_a = groups_.find(a);

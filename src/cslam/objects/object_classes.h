@@ -24,7 +24,7 @@ struct ObjectClassOptions {
   std::string sizes =
       "chair=0.7:1.4 couch=1.0:3.0 suitcase=0.3:0.95 backpack=0.3:0.8 handbag=0.15:0.6 "
       "cup=0.05:0.2 bowl=0.08:0.4 bottle=0.1:0.4 vase=0.1:0.8 tv=0.25:2.0 laptop=0.2:0.6 "
-      "teddy_bear=0.1:1.2";
+      "teddy_bear=0.1:0.9";
   double wrong_size_weight = 0.2;
   // Names that detectors use for one another.
   std::string alike =
@@ -50,6 +50,9 @@ class ObjectClasses {
 
   // What a vote for the class counts if the thing's largest side is so long: 1 or less.
   double SizeWeight(int class_id, double largest_m) const;
+
+  // Whether no such thing has a side so long, as far as its size is known.
+  bool IsTooLarge(int class_id, double largest_m) const;
 
   // One class, or names for one another.
   bool AreAlike(int a, int b) const;

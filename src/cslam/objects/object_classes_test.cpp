@@ -36,6 +36,15 @@ TEST(ObjectClasses, WeighVotesBySize) {
   EXPECT_EQ(classes.SizeWeight(Class("spoon"), 5.0), 1.0) << "of which nothing is known";
 }
 
+TEST(ObjectClasses, KnowWhatIsTooLargeForAThing) {
+  ObjectClassOptions options;
+  options.sizes = "cup=0.05:0.2";
+  const ObjectClasses classes(options);
+  EXPECT_FALSE(classes.IsTooLarge(Class("cup"), 0.19));
+  EXPECT_TRUE(classes.IsTooLarge(Class("cup"), 0.21));
+  EXPECT_FALSE(classes.IsTooLarge(Class("chair"), 9.0)) << "nothing is known of it";
+}
+
 TEST(ObjectClasses, RefuseSizesThatCannotBeRead) {
   for (const char* sizes : {"chair", "chair=1", "chair=2:1", "char=0.5:1"}) {
     ObjectClassOptions options;
