@@ -46,8 +46,8 @@ std::string FormatDetection(const RecordedDetection& d) {
   return fmt::format(
       "{{\"instance\": {}, \"class_id\": {}, \"score\": {}, \"box_px\": [{}, {}, {}, {}], "
       "\"visible_px\": {}}}",
-      d.instance, d.class_id, d.score, d.box.x_min, d.box.y_min, d.box.x_max, d.box.y_max,
-      d.visible_px);
+      d.instance, d.class_id, JsonExact(d.score), JsonExact(d.box.x_min), JsonExact(d.box.y_min),
+      JsonExact(d.box.x_max), JsonExact(d.box.y_max), d.visible_px);
 }
 
 std::string FormatFrame(const RecordedFrame& frame) {

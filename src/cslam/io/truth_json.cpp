@@ -51,10 +51,13 @@ std::string ListStart(const ListFileHead& head) {
 }
 
 std::string JsonNumber(double value) {
-  CSLAM_CHECK(std::isfinite(value), "JSON has no {}", value);
   constexpr double kPerUnit = 1e9;
-  const double rounded = std::round(value * kPerUnit) / kPerUnit;
-  return fmt::format("{}", rounded == 0.0 ? 0.0 : rounded);  // no "-0"
+  return JsonExact(std::round(value * kPerUnit) / kPerUnit);
+}
+
+std::string JsonExact(double value) {
+  CSLAM_CHECK(std::isfinite(value), "JSON has no {}", value);
+  return fmt::format("{}", value == 0.0 ? 0.0 : value);  // no "-0"
 }
 
 std::string JsonArray(const Eigen::VectorXd& values) {

@@ -54,6 +54,8 @@ void WriteListFile(const std::filesystem::path& file, const ListFileHead& head, 
 
 // Rounded to 9 decimals: nanometres, nanoseconds. The value must be finite.
 std::string JsonNumber(double value);
+// With all the digits it takes to read the same value again.
+std::string JsonExact(double value);
 std::string JsonArray(const Eigen::VectorXd& values);
 
 // [tx, ty, tz, qx, qy, qz, qw], qw >= 0.

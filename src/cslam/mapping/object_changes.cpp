@@ -22,6 +22,14 @@ double Confidence(const MapView& map, const MapChange& change) {
   return confidence;
 }
 
+// Within the picture, or not far beside it.
+bool IsInFront(const Eigen::Vector3d& p_camera, const Camera& camera) {
+  if (p_camera.z() < 0.1) return false;
+  const Eigen::Vector2d uv = Project(camera, p_camera);
+  return uv.x() > -0.5 * camera.width && uv.x() < 1.5 * camera.width &&
+         uv.y() > -0.5 * camera.height && uv.y() < 1.5 * camera.height;
+}
+
 double MiddleSideM(const MapObject& object) {
   Eigen::Vector3d size = object.box.size_m;
   std::sort(size.begin(), size.end());
@@ -107,7 +115,7 @@ ViewsBefore LookBack(const MapView& map, const MapObject& object, const Camera& 
     const Keyframe& keyframe = *map.FindKeyframe(id);
     if (keyframe.map != object.map || keyframe.data->depth_small_mm.empty()) continue;
     const Se3 T_camera_object = keyframe.T_world_camera.Inverse() * T_world_object;
-    if ((T_camera_object * object.centroid).z() < 0.1) continue;
+    if (!IsInFront(T_camera_object * object.centroid, camera)) continue;
     const DepthSampler sampler{&keyframe.data->depth_small_mm, DepthThumbnailStep(camera.width),
                                &camera, camera.HasDistortion()};
     const ExpectedView view =

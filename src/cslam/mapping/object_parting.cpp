@@ -28,6 +28,11 @@ bool IsSmallerPart(const MapObject& other, const MapObject* known, const PlacedS
   return other.box.size_m.maxCoeff() < options.same_size * size_m;
 }
 
+bool IsNear(const MapView& map, const MapObject& other, const PlacedSighting& sighting) {
+  const double reach_m = sighting.extent_m + other.box.size_m.maxCoeff();
+  return (map.CentroidOf(other) - sighting.centroid_world).norm() < reach_m;
+}
+
 // Sets the pixels of covered in which the surface stands.
 void Cover(cv::Mat& covered, const ObjectSurface& surface, const Se3& T_camera_surface,
            const DepthView& view, const ExpectedViewOptions& options) {
@@ -61,7 +66,7 @@ PlacedSighting PartFromOthers(const MapView& map, MapId map_id, const PlacedSigh
   for (const ObjectId id : map.Objects()) {
     const MapObject& other = *map.FindObject(id);
     if (other.map != map_id || (known != nullptr && known->id == id) ||
-        !IsSmallerPart(other, known, sighting, classes, options)) {
+        !IsSmallerPart(other, known, sighting, classes, options) || !IsNear(map, other, sighting)) {
       continue;
     }
     if (covered.empty()) covered = cv::Mat::zeros(view.depth_mm.size(), CV_8UC1);
