@@ -22,7 +22,7 @@ WIDTH, LEFT, RIGHT, TOP = 860, 132, 20, 46
 STRIP, GAP, BOTTOM = 46, 14, 44
 CAUSES = {"created": "#8a8f98", "seen": "#1a7f37", "merged": "#0969da", "missed": "#bf8700",
           "looked_through": "#cf222e", "displaced": "#8250df"}
-THRESHOLDS = {"activate_at": 0.75, "absent_at": 0.3}
+THRESHOLDS = {"activate_at": 0.94, "absent_at": 0.3}
 STATES = {"candidate": "#bf8700", "present": "#1a7f37", "absent": "#8a8f98"}
 
 

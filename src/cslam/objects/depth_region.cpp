@@ -283,11 +283,6 @@ double ReachOfBox(const DepthView& view, const Box& box, double main_m, bool is_
 
 }  // namespace
 
-double ShareInside(const DepthRegion& region, const DepthRegion& other) {
-  if (region.empty() || other.empty() || Intersect(region.box, other.box).empty()) return 0.0;
-  return static_cast<double>(cv::countNonZero(region.mask & other.mask)) / region.num_pixels;
-}
-
 DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person, const cv::Mat& taken,
                        const RegionOptions& options) {
   if (view.empty() || box.empty()) return {};

@@ -60,9 +60,6 @@ struct DepthRegion {
   bool empty() const { return num_pixels == 0; }
 };
 
-// Share of the region's pixels that other covers, too; both of one view. 0 if one is empty.
-double ShareInside(const DepthRegion& region, const DepthRegion& other);
-
 // A detector's box is tight, so what continues from around it into it is not the thing: the floor
 // it stands on, the wall behind it.
 struct BoxBackgroundOptions {

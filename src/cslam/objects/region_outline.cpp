@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/objects/region_outline.h"
 
+#include <opencv2/core.hpp>
+
 #include <utility>
 
 namespace cslam {
@@ -39,6 +41,11 @@ bool IsCovered(const DepthRegion& region, const DepthView& view) {
     }
   }
   return outline > 0 && covered > kMinShare * outline;
+}
+
+double ShareInside(const DepthRegion& region, const DepthRegion& other) {
+  if (region.empty() || other.empty() || Intersect(region.box, other.box).empty()) return 0.0;
+  return static_cast<double>(cv::countNonZero(region.mask & other.mask)) / region.num_pixels;
 }
 
 }  // namespace cslam

@@ -13,4 +13,7 @@ bool IsClipped(const DepthRegion& region);
 // thing. view: the region's own.
 bool IsCovered(const DepthRegion& region, const DepthView& view);
 
+// Share of the region's pixels that other covers, too; both of one view. 0 if one is empty.
+double ShareInside(const DepthRegion& region, const DepthRegion& other);
+
 }  // namespace cslam

@@ -5,6 +5,7 @@
 #include "cslam/objects/test_depth.h"
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 namespace cslam {
 namespace {
@@ -37,6 +38,21 @@ TEST(IsCovered, TellsWhatHasSomethingNearerBesideIt) {
   const DepthRegion rest = RegionOf(view, chair);
   ASSERT_FALSE(rest.empty());
   EXPECT_TRUE(IsCovered(rest, view));
+}
+
+TEST(ShareInside, IsTheShareOfTheFirstThatTheSecondCovers) {
+  cv::Mat depth_m = Wall(4.0);
+  const Box whole = DrawPanel(depth_m, 0.0, 0.0, 2.0, 0.8, 0.8);
+  const DepthView view = ViewOf(depth_m);
+  const DepthRegion thing = RegionOf(view, whole);
+  DepthRegion half = thing;
+  half.mask = half.mask.clone();
+  half.mask.rowRange(0, half.mask.rows / 2).setTo(0);
+  half.num_pixels = cv::countNonZero(half.mask);
+  ASSERT_GT(half.num_pixels, 0);
+  EXPECT_DOUBLE_EQ(ShareInside(half, thing), 1.0);
+  EXPECT_NEAR(ShareInside(thing, half), 0.5, 0.1);
+  EXPECT_DOUBLE_EQ(ShareInside(thing, DepthRegion{}), 0.0);
 }
 
 }  // namespace
