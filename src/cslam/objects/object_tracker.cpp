@@ -124,7 +124,8 @@ std::vector<BoxOverlap> ObjectTracker::Overlaps(const Frame& frame, const Detect
   for (const Object& object : objects_) {
     if (object.class_id != detection.class_id && object.class_id >= 0) continue;
     double iou = Iou(object.box, frame.id == now_.id ? detection.box : region_now.box);
-    if (!object.is_person() && ShareInside(object.region, region_now) >= options_.min_inside)
+    const bool may_be_piece = object.class_id == detection.class_id && !object.is_person();
+    if (may_be_piece && ShareInside(object.region, region_now) >= options_.min_inside)
       iou = std::max(iou, options_.min_iou);
     for (const PastObject& past : frame.objects) {
       if (past.id == object.id) iou = std::max(iou, Iou(past.box, detection.box));
