@@ -287,8 +287,18 @@ void ObjectTracker::Forget() {
   });
 }
 
+// What lies flat on the floor over a metre is floor, a rug taken for a bed; what is flat on a wall
+// is wall. Without such points little near the camera may be left, and nothing holds its position.
+bool ObjectTracker::IsRoom(const Object& object) const {
+  if (!object.is_flat || object.is_person() || object.class_id < 0) return false;
+  if (object.is_on_wall) return !options_.map_flat_on_walls;
+  const double side_px = std::max(object.box.width(), object.box.height());
+  return side_px * static_cast<double>(object.region.median_m) / camera_.fx > options_.max_flat_m;
+}
+
 KeypointLabel ObjectTracker::LabelOf(const Object& object) const {
   if (object.is_person() || object.class_id < 0) return KeypointLabel::kDynamic;
+  if (IsRoom(object)) return KeypointLabel::kStatic;
   if (!options_.label_movable) return KeypointLabel::kStatic;
   if (!options_.filter_motion) return KeypointLabel::kDynamic;
   const ObjectMotion motion = object.filter ? object.filter->motion() : ObjectMotion::kUnknown;
@@ -398,7 +408,7 @@ std::vector<ObjectSighting> ObjectTracker::Sightings() const {
   for (const Object& object : objects_) {
     if (object.class_id < 0 || object.is_person() || object.region.empty()) continue;
     if (object.filter && object.filter->motion() == ObjectMotion::kMoving) continue;
-    if (object.is_on_wall && !options_.map_flat_on_walls) continue;
+    if (IsRoom(object)) continue;
     sightings.push_back({.track = object.id,
                          .class_id = object.class_id,
                          .score = object.score * (object.is_flat ? options_.flat_score : 1.0),

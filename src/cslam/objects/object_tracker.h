@@ -122,6 +122,7 @@ class ObjectTracker {
   void AddUnknown(const DepthRegion& region, const Se3& T_world_camera);
   const Frame* SettledBefore(double age_s) const;
   double TurnRateDps(const Se3& T_world_camera) const;
+  bool IsRoom(const Object& object) const;
   KeypointLabel LabelOf(const Object& object) const;
   double AreaM2(const DepthRegion& region) const;
 

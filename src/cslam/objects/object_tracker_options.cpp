@@ -34,8 +34,11 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
   list.Add("max_growth", o.max_growth, {1.0, 100.0}, "",
            "A carried region stops growing at so many times its detected size.");
   list.Add("map_flat_on_walls", o.map_flat_on_walls,
-           "Things that do not stand out from a wall become objects of the map: pictures pass for "
-           "screens.");
+           "Things that do not stand out from a wall become objects of the map instead of counting "
+           "as room: pictures pass for screens.");
+  list.Add("max_flat", o.max_flat_m, {0.0, 100.0}, "m",
+           "What does not stand out from floor or table and is larger counts as room: a rug that "
+           "passes for a bed.");
   list.Add("flat_score", o.flat_score, {0.0, 1.0}, "",
            "What the score of a thing counts, as far as the map of objects goes, that does not "
            "stand out from the wall or table: pictures pass for screens.");

@@ -218,6 +218,41 @@ TEST_F(TravellerTest, TrustsWhatMovedLittleAndRests) {
   EXPECT_TRUE(tracker_->objects().empty());
 }
 
+// A floor 1 m below the camera, and a wall at 4 m.
+cv::Mat Floor() {
+  cv::Mat depth_m = Wall(4.0);
+  const Camera camera = SceneCamera();
+  for (int v = static_cast<int>(camera.cy) + 1; v < depth_m.rows; ++v)
+    depth_m.row(v) = std::min(4.0, camera.fy / (v - camera.cy));
+  return depth_m;
+}
+
+TEST_F(ObjectTrackerTest, TakesARugThatPassesForABedForTheFloor) {
+  constexpr int kBed = 59;
+  PlayDetected(Floor(), {{kBed, {100, 410, 540, 470}}});
+  ASSERT_EQ(tracker_->objects().size(), 1U);
+  EXPECT_EQ(LabelAt(320, 440, 525.0 / 200.5), KeypointLabel::kStatic);
+  EXPECT_TRUE(tracker_->Sightings().empty()) << "it is no object of the map either";
+}
+
+TEST_F(ObjectTrackerTest, HoldsBackASmallThingThatLiesOnTheFloor) {
+  constexpr int kBook = 73;
+  PlayDetected(Floor(), {{kBook, {290, 425, 350, 455}}});
+  EXPECT_EQ(LabelAt(320, 440, 525.0 / 200.5), KeypointLabel::kMovable);
+  EXPECT_EQ(tracker_->Sightings().size(), 1U);
+}
+
+TEST_F(ObjectTrackerTest, TakesAPictureThatPassesForAScreenForTheWallUnlessToldOtherwise) {
+  constexpr int kScreen = 62;
+  const std::vector<Seen> picture{{kScreen, {250, 150, 400, 250}}};
+  PlayDetected(Wall(3.0), picture);
+  EXPECT_EQ(LabelAt(320, 200, 3.0), KeypointLabel::kStatic);
+  options_.map_flat_on_walls = true;
+  tracker_.reset();
+  PlayDetected(Wall(3.0), picture);
+  EXPECT_EQ(LabelAt(320, 200, 3.0), KeypointLabel::kMovable);
+}
+
 TEST_F(ObjectTrackerTest, FindsAMovingThingThatNobodyNamed) {
   for (int i = 0; i < 30; ++i) {
     cv::Mat depth = Wall(4.0);
