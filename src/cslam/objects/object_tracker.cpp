@@ -296,6 +296,13 @@ bool ObjectTracker::IsRoom(const Object& object) const {
   return side_px * static_cast<double>(object.region.median_m) / camera_.fx > options_.max_flat_m;
 }
 
+// What the camera sees little beside seems to move whenever the camera does.
+bool ObjectTracker::FillsThePicture(const Object& object) const {
+  const std::size_t num_pixels = object.region.mask.total();
+  return num_pixels > 0 &&
+         object.region.num_pixels > options_.max_moving_share * static_cast<double>(num_pixels);
+}
+
 KeypointLabel ObjectTracker::LabelOf(const Object& object) const {
   if (object.is_person() || object.class_id < 0) return KeypointLabel::kDynamic;
   if (IsRoom(object)) return KeypointLabel::kStatic;
@@ -303,7 +310,8 @@ KeypointLabel ObjectTracker::LabelOf(const Object& object) const {
   if (!options_.filter_motion) return KeypointLabel::kDynamic;
   const ObjectMotion motion = object.filter ? object.filter->motion() : ObjectMotion::kUnknown;
   const bool may_use = motion == ObjectMotion::kStatic ||
-                       (motion == ObjectMotion::kUnknown && !options_.hold_back_new);
+                       (motion == ObjectMotion::kUnknown && !options_.hold_back_new) ||
+                       FillsThePicture(object);
   return may_use ? KeypointLabel::kMovable : KeypointLabel::kDynamic;
 }
 

@@ -123,6 +123,7 @@ class ObjectTracker {
   const Frame* SettledBefore(double age_s) const;
   double TurnRateDps(const Se3& T_world_camera) const;
   bool IsRoom(const Object& object) const;
+  bool FillsThePicture(const Object& object) const;
   KeypointLabel LabelOf(const Object& object) const;
   double AreaM2(const DepthRegion& region) const;
 

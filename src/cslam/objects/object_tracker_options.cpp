@@ -39,6 +39,10 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
   list.Add("max_flat", o.max_flat_m, {0.0, 100.0}, "m",
            "What does not stand out from floor or table and is larger counts as room: a rug that "
            "passes for a bed.");
+  list.Add("max_moving_share", o.max_moving_share, {0.0, 1.0}, "",
+           "Share of the picture from which on a thing with a name that seems to move is held back "
+           "only where the room suffices: a shelf that passes for a refrigerator and fills the "
+           "picture seems to move whenever the camera does.");
   list.Add("flat_score", o.flat_score, {0.0, 1.0}, "",
            "What the score of a thing counts, as far as the map of objects goes, that does not "
            "stand out from the wall or table: pictures pass for screens.");

@@ -23,9 +23,10 @@ struct ObjectTrackerOptions {
   int max_history_frames = 30;  // how old a frame may be whose detections come late
   double left_behind_m = 0.3;   // a nameless thing seen to go so far is not trusted while in view
   bool map_flat_on_walls = false;
-  double max_flat_m = 0.8;  // larger flat things are floor
-  double flat_score = 0.5;  // of the score of what does not stand out from what is around it
-  double max_growth = 1.3;  // of a carried region's size, before it no longer grows
+  double max_flat_m = 0.8;        // larger flat things are floor
+  double max_moving_share = 0.3;  // of the picture; a named thing that covers more is not moving
+  double flat_score = 0.5;        // of the score of what does not stand out from what is around it
+  double max_growth = 1.3;        // of a carried region's size, before it no longer grows
   RegionOptions region;
   LabelOptions labels;
   ObjectFilterOptions filter;

@@ -218,6 +218,22 @@ TEST_F(TravellerTest, TrustsWhatMovedLittleAndRests) {
   EXPECT_TRUE(tracker_->objects().empty());
 }
 
+TEST_F(ObjectTrackerTest, DoesNotLeaveOutWhatFillsThePictureThoughItSeemsToMove) {
+  const auto play = [&](double width_m) {
+    tracker_.reset();
+    for (int i = 0; i < 20; ++i) {
+      cv::Mat depth = Wall(4.0);
+      const Box box = DrawPanel(depth, -0.4 + 0.04 * i, 0.0, 1.5, width_m, 1.2);
+      PlayDetected(depth, {{kChair, box}});
+    }
+    return tracker_->objects().at(0);
+  };
+  EXPECT_EQ(play(0.4).label, KeypointLabel::kDynamic);
+  const TrackedObject large = play(1.0);
+  EXPECT_EQ(large.motion, ObjectMotion::kMoving);
+  EXPECT_EQ(large.label, KeypointLabel::kMovable);
+}
+
 // A floor 1 m below the camera, and a wall at 4 m.
 cv::Mat Floor() {
   cv::Mat depth_m = Wall(4.0);

@@ -59,7 +59,7 @@ struct TrackerOptions {
   int sure_inliers = 100;
   int use_provisional_below = 100;
   int use_held_back_below = 600;
-  int min_room_matches = 100;
+  int min_room_matches = 400;
   int full_trust_views = 8;
   double recently_lost_s = 2.0;
   double max_jump_m = 0.2;
