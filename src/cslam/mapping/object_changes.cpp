@@ -138,9 +138,12 @@ ChangeList::ChangeList(const Camera& camera, const MapObjectOptions& options,
 // greatest is the first to take in something that is not the thing.
 bool ChangeList::LooksLike(const MapObject& a, const MapObject& b) const {
   if (!classes_.AreAlike(a.class_id, b.class_id)) return false;
-  if (ColourLikeness(a.colours, b.colours) < options_.min_likeness) return false;
+  const double likeness = ColourLikeness(a.colours, b.colours);
+  if (likeness < options_.min_likeness) return false;
   const double ratio = MiddleSideM(a) / MiddleSideM(b);
-  return ratio <= options_.max_size_ratio && ratio >= 1.0 / options_.max_size_ratio;
+  const double max_ratio =
+      likeness >= options_.sure_likeness ? options_.sure_max_size_ratio : options_.max_size_ratio;
+  return ratio <= max_ratio && ratio >= 1.0 / max_ratio;
 }
 
 bool ChangeList::StandsAt(const MapView& map, const MapObject& a, const MapObject& b) const {

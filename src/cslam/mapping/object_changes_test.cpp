@@ -192,6 +192,13 @@ TEST_F(ChangeListTest, DoesNotTakeAnotherColourOrSizeForTheSameThing) {
   EXPECT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kAdded, Kind::kAdded}));
 }
 
+TEST_F(ChangeListTest, AllowsForMoreDifferenceInSizeIfTheColoursAreEqual) {
+  const ObjectId small = AddObject(kHere, 0, 5, kChairClass, 2.0F, 0.2);
+  Leave(small);
+  Arrive(AddObject(kThere, 8, 12, kChairClass, 2.0F, 0.5));
+  EXPECT_EQ(Kinds(), std::vector{Kind::kMoved});
+}
+
 TEST_F(ChangeListTest, DoesNotTakeWhatWasSeenAtTheSameTimeForTheSameThing) {
   const ObjectId old_one = AddObject(kHere, 0, 10);
   Arrive(AddObject(kThere, 8, 12));

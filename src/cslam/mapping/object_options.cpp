@@ -42,6 +42,8 @@ void Describe(OptionList& list, MapObjectOptions& o) {
            "What was out of sight for so long is known by its colours as well.");
   list.Add("max_size_ratio", o.max_size_ratio, {1.0, 10.0}, "",
            "How much larger one may seem than the other.");
+  list.Add("sure_max_size_ratio", o.sure_max_size_ratio, {1.0, 10.0}, "",
+           "The same if their colours have sure_likeness: at first little of a thing may be seen.");
   list.Add("replace_distance", o.replace_distance_m, {0.0, 5.0}, "m",
            "How far from a vanished thing another one replaces it.");
   list.Add("min_views_before", o.min_views_before, {1, 1000}, "keyframes",

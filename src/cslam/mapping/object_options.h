@@ -40,6 +40,7 @@ struct MapObjectOptions {
   double sure_likeness = 0.75;
   double recognise_after_s = 2.0;
   double max_size_ratio = 2.0;
+  double sure_max_size_ratio = 3.0;
   double replace_distance_m = 0.6;
   int min_views_before = 2;
   int settled_sightings = 8;
