@@ -4,16 +4,34 @@
 
 #include "cslam/objects/detection_regions.h"
 #include "cslam/objects/region_outline.h"
+#include "cslam/semantics/coco.h"
+#include "cslam/util/check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <utility>
 
 namespace cslam {
 
+namespace {
+
+std::set<int> ClassesIn(const std::string& text) {
+  std::set<int> classes;
+  std::istringstream names(text);
+  for (std::string name; names >> name;) {
+    const auto id = FindCocoClass(name);
+    if (!id) throw Error("tracking.objects.fixed: '{}' is no COCO class", name);
+    classes.insert(*id);
+  }
+  return classes;
+}
+
+}  // namespace
+
 ObjectTracker::ObjectTracker(const Camera& camera, const ObjectTrackerOptions& options)
-    : camera_(camera), views_(camera), options_(options) {
+    : camera_(camera), views_(camera), options_(options), fixed_(ClassesIn(options.fixed)) {
   RuleOf(options.labels);  // throws for an unknown one
 }
 
@@ -290,6 +308,7 @@ void ObjectTracker::Forget() {
 // What lies flat on the floor over a metre is floor, a rug taken for a bed; what is flat on a wall
 // is wall. Without such points little near the camera may be left, and nothing holds its position.
 bool ObjectTracker::IsRoom(const Object& object) const {
+  if (fixed_.contains(object.class_id)) return true;
   if (!object.is_flat || object.is_person() || object.class_id < 0) return false;
   if (object.is_on_wall) return !options_.map_flat_on_walls;
   const double side_px = std::max(object.box.width(), object.box.height());

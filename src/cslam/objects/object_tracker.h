@@ -12,6 +12,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -130,6 +131,7 @@ class ObjectTracker {
   const Camera camera_;
   const DepthViewMaker views_;
   const ObjectTrackerOptions options_;
+  const std::set<int> fixed_;    // classes
   std::vector<Object> objects_;  // by id
   std::deque<Frame> history_;    // settled frames, oldest first
   Frame now_;

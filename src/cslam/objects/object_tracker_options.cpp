@@ -33,6 +33,9 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
            "at rest: what was brought is likely to be taken away again.");
   list.Add("max_growth", o.max_growth, {1.0, 100.0}, "",
            "A carried region stops growing at so many times its detected size.");
+  list.Add("fixed", o.fixed,
+           "Classes that count as room, with blanks between: furniture that nobody moves, and what "
+           "detectors take for it, such as rugs and shelves.");
   list.Add("map_flat_on_walls", o.map_flat_on_walls,
            "Things that do not stand out from a wall become objects of the map instead of counting "
            "as room: pictures pass for screens.");

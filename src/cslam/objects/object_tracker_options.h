@@ -7,6 +7,8 @@
 #include "cslam/objects/motion_regions.h"
 #include "cslam/objects/object_filter.h"
 
+#include <string>
+
 namespace cslam {
 
 class OptionList;
@@ -22,6 +24,8 @@ struct ObjectTrackerOptions {
   double first_bridge_s = 0.2;  // ... if it was detected only once
   int max_history_frames = 30;  // how old a frame may be whose detections come late
   double left_behind_m = 0.3;   // a nameless thing seen to go so far is not trusted while in view
+  // Furniture that nobody moves counts as room: what passes for it mostly is (rugs, shelves).
+  std::string fixed = "bed dining_table toilet oven sink refrigerator";
   bool map_flat_on_walls = false;
   double max_flat_m = 0.8;        // larger flat things are floor
   double max_moving_share = 0.3;  // of the picture; a named thing that covers more is not moving

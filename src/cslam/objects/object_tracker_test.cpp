@@ -3,6 +3,7 @@
 #include "cslam/objects/object_tracker.h"
 
 #include "cslam/objects/test_depth.h"
+#include "cslam/util/check.h"
 
 #include <gtest/gtest.h>
 
@@ -243,12 +244,27 @@ cv::Mat Floor() {
   return depth_m;
 }
 
-TEST_F(ObjectTrackerTest, TakesARugThatPassesForABedForTheFloor) {
-  constexpr int kBed = 59;
-  PlayDetected(Floor(), {{kBed, {100, 410, 540, 470}}});
+TEST_F(ObjectTrackerTest, TakesARugThatPassesForACouchForTheFloor) {
+  constexpr int kCouch = 57;
+  PlayDetected(Floor(), {{kCouch, {100, 410, 540, 470}}});
   ASSERT_EQ(tracker_->objects().size(), 1U);
   EXPECT_EQ(LabelAt(320, 440, 525.0 / 200.5), KeypointLabel::kStatic);
   EXPECT_TRUE(tracker_->Sightings().empty()) << "it is no object of the map either";
+}
+
+TEST_F(ObjectTrackerTest, CountsFurnitureThatNobodyMovesAsRoom) {
+  constexpr int kRefrigerator = 72;
+  cv::Mat depth = Wall(4.0);
+  const Box box = DrawPanel(depth, 0.0, 0.0, 2.0, 0.6, 1.2);
+  PlayDetected(depth, {{kRefrigerator, box}});
+  EXPECT_EQ(LabelAt(320, 240, 2.0), KeypointLabel::kStatic);
+  EXPECT_TRUE(tracker_->Sightings().empty());
+  options_.fixed = "";
+  tracker_.reset();
+  PlayDetected(depth, {{kRefrigerator, box}});
+  EXPECT_EQ(LabelAt(320, 240, 2.0), KeypointLabel::kMovable);
+  options_.fixed = "bed wardrobe";
+  EXPECT_THROW(ObjectTracker(SceneCamera(), options_), Error);
 }
 
 TEST_F(ObjectTrackerTest, HoldsBackASmallThingThatLiesOnTheFloor) {

@@ -19,12 +19,12 @@ class OptionList;
 
 struct ObjectWatchOptions {
   bool enabled = true;
-  double view_interval_s = 0.2;     // views closer in time are no news
-  double max_turn_rate_dps = 60.0;  // faster, colour and depth do not belong together
-  double pose_sigma_m = 0.15;       // of a pose with one inlier; falls with their square root
-  double max_miss_depth_m = 3.0;    // farther, a missing detection says nothing
-  double force_log_ratio = 2.0;     // so much evidence against what the map says is told at once
-  double new_after_s = 0.4;         // a thing detected for so long that is not in the map as well
+  double view_interval_s = 0.2;      // views closer in time are no news
+  double max_turn_rate_dps = 100.0;  // faster, colour and depth do not belong together
+  double pose_sigma_m = 0.15;        // of a pose with one inlier; falls with their square root
+  double max_miss_depth_m = 3.0;     // farther, a missing detection says nothing
+  double force_log_ratio = 2.0;      // so much evidence against what the map says is told at once
+  double new_after_s = 0.4;          // a thing detected for so long that is not in the map as well
 
   // What the mapper goes by too: Slam takes them from mapping.objects.
   ObjectClassOptions classes;
