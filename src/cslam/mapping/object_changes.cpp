@@ -23,7 +23,7 @@ double Confidence(const MapView& map, const MapChange& change) {
 }
 
 // Within the picture, or not far beside it.
-bool IsInFront(const Eigen::Vector3d& p_camera, const Camera& camera) {
+bool IsInOrBesidePicture(const Eigen::Vector3d& p_camera, const Camera& camera) {
   if (p_camera.z() < 0.1) return false;
   const Eigen::Vector2d uv = Project(camera, p_camera);
   return uv.x() > -0.5 * camera.width && uv.x() < 1.5 * camera.width &&
@@ -115,7 +115,7 @@ ViewsBefore LookBack(const MapView& map, const MapObject& object, const Camera& 
     const Keyframe& keyframe = *map.FindKeyframe(id);
     if (keyframe.map != object.map || keyframe.data->depth_small_mm.empty()) continue;
     const Se3 T_camera_object = keyframe.T_world_camera.Inverse() * T_world_object;
-    if (!IsInFront(T_camera_object * object.centroid, camera)) continue;
+    if (!IsInOrBesidePicture(T_camera_object * object.centroid, camera)) continue;
     const DepthSampler sampler{&keyframe.data->depth_small_mm, DepthThumbnailStep(camera.width),
                                &camera, camera.HasDistortion()};
     const ExpectedView view =

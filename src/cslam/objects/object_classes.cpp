@@ -23,9 +23,9 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
-int ClassCalled(const std::string& name, const char* option) {
+int ClassCalled(const std::string& name, const std::string& option) {
   const auto id = FindCocoClass(name);
-  if (!id) throw Error("classes.{}: '{}' is no COCO class", option, name);
+  if (!id) throw Error("{}: '{}' is no COCO class", option, name);
   return *id;
 }
 
@@ -60,7 +60,7 @@ ObjectClasses::ObjectClasses(const ObjectClassOptions& options)
     if (!(number >> distance_m) || distance_m <= 0.0) {
       throw Error("classes.distances: '{}' is not class=metres", entry);
     }
-    distances_m_[ClassCalled(parts[0], "distances")] = distance_m;
+    distances_m_[ClassCalled(parts[0], "classes.distances")] = distance_m;
   }
   for (const std::string& entry : Split(options.sizes, ' ')) {
     const auto parts = Split(entry, '=');
@@ -70,16 +70,22 @@ ObjectClasses::ObjectClasses(const ObjectClassOptions& options)
     char colon = 0;
     if (!(numbers >> from_m >> colon >> to_m) || colon != ':' || from_m < 0.0 || to_m <= from_m)
       throw Error("classes.sizes: '{}' is not class=from:to in metres", entry);
-    sizes_m_[ClassCalled(parts[0], "sizes")] = {from_m, to_m};
+    sizes_m_[ClassCalled(parts[0], "classes.sizes")] = {from_m, to_m};
   }
   const auto groups = Split(options.alike, ' ');
   if (groups.size() > kMaxGroups) throw Error("classes.alike: more than {} groups", kMaxGroups);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     for (const std::string& name : Split(groups[i], '+'))
-      groups_[ClassCalled(name, "alike")] |= 1U << i;
+      groups_[ClassCalled(name, "classes.alike")] |= 1U << i;
   }
-  for (const std::string& name : Split(options.left_out, ' '))
-    left_out_[ClassCalled(name, "left_out")] = true;
+  left_out_ = ClassesIn(options.left_out, "classes.left_out");
+}
+
+std::set<int> ClassesIn(const std::string& names, const std::string& option) {
+  std::set<int> classes;
+  for (const std::string& name : Split(names, ' '))
+    classes.insert(ClassCalled(name, option));
+  return classes;
 }
 
 double ObjectClasses::DistanceM(int class_id) const {

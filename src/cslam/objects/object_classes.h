@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -67,7 +68,10 @@ class ObjectClasses {
   std::map<int, std::pair<double, double>> sizes_m_;  // of the largest side
   double wrong_size_weight_;
   std::map<int, unsigned> groups_;  // bit i: member of group i
-  std::map<int, bool> left_out_;
+  std::set<int> left_out_;
 };
+
+// The classes with these names, blanks between them. option: for the Error of a name that is none.
+std::set<int> ClassesIn(const std::string& names, const std::string& option);
 
 }  // namespace cslam

@@ -3,35 +3,21 @@
 #include "cslam/objects/object_tracker.h"
 
 #include "cslam/objects/detection_regions.h"
+#include "cslam/objects/object_classes.h"
 #include "cslam/objects/region_outline.h"
-#include "cslam/semantics/coco.h"
-#include "cslam/util/check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <utility>
 
 namespace cslam {
 
-namespace {
-
-std::set<int> ClassesIn(const std::string& text) {
-  std::set<int> classes;
-  std::istringstream names(text);
-  for (std::string name; names >> name;) {
-    const auto id = FindCocoClass(name);
-    if (!id) throw Error("tracking.objects.fixed: '{}' is no COCO class", name);
-    classes.insert(*id);
-  }
-  return classes;
-}
-
-}  // namespace
-
 ObjectTracker::ObjectTracker(const Camera& camera, const ObjectTrackerOptions& options)
-    : camera_(camera), views_(camera), options_(options), fixed_(ClassesIn(options.fixed)) {
+    : camera_(camera),
+      views_(camera),
+      options_(options),
+      fixed_(ClassesIn(options.fixed, "tracking.objects.fixed")) {
   RuleOf(options.labels);  // throws for an unknown one
 }
 
