@@ -57,6 +57,15 @@ std::optional<MapChange> ToldArrival(const MapView& map, ObjectId id) {
   return told == changes.rend() ? std::nullopt : std::optional(*told);
 }
 
+// What was told last of the object's going.
+std::optional<MapChange> ToldDeparture(const MapView& map, ObjectId id) {
+  const std::vector<MapChange>& changes = map.changes();
+  const auto told = std::find_if(changes.rbegin(), changes.rend(), [&](const MapChange& c) {
+    return c.object == id && c.kind != MapChangeKind::kAdded;
+  });
+  return told == changes.rend() ? std::nullopt : std::optional(*told);
+}
+
 // One thing at two places: what it was called at the old one counts at the new one.
 void InheritVotes(Map& map, const MapChange& moved) {
   MapObject object = *map.FindObject(moved.new_object);
@@ -255,9 +264,29 @@ void ChangeList::RejoinAdded(Map& map, const MapChange& added) const {
   AddJoined(map, added);
 }
 
+// What nobody looked through, and is seen again beside what seemed to have taken its place, never
+// went.
+bool ChangeList::TakeBackDisplacement(Map& map, ObjectId id, Stamp now,
+                                      std::uint32_t session) const {
+  const auto told = ToldDeparture(map, id);
+  if (!told || told->kind != MapChangeKind::kReplaced || told->num_absent_views > 0) return false;
+  const ObjectId comer_id = told->new_object;
+  const MapObject* comer = map.FindObject(comer_id);
+  if (comer == nullptr || comer->state != ObjectState::kPresent ||
+      SecondsBetween(now, comer->last_seen) > options_.recognise_after_s) {
+    return false;
+  }
+  std::vector<MapChange> changes = map.changes();
+  std::erase(changes, *told);
+  map.SetChanges(std::move(changes));
+  OnArrived(map, comer_id, now, session);
+  return true;
+}
+
 void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t session) const {
   const MapObject& object = *map.FindObject(id);
   const bool is_back = object.absent_since.has_value();
+  if (is_back && TakeBackDisplacement(map, id, now, session)) return;
   if (const auto told = is_back ? std::nullopt : ToldArrival(map, id)) {
     if (IsSingle(*told, MapChangeKind::kAdded)) RejoinAdded(map, *told);
     return;

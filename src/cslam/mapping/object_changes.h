@@ -55,6 +55,7 @@ class ChangeList {
                                 const MapChange& told) const;
   void AddJoined(Map& map, const MapChange& change) const;
   void RejoinAdded(Map& map, const MapChange& added) const;
+  bool TakeBackDisplacement(Map& map, ObjectId id, Stamp now, std::uint32_t session) const;
   bool Join(const MapView& map, MapChange& change, const MapChange& other) const;
 
   const Camera camera_;

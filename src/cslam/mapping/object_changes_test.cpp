@@ -60,6 +60,13 @@ class ChangeListTest : public testing::Test {
     map_.SetObject(std::move(object));
     list_.OnGone(map_, id, now, 3, session_);
   }
+  void Displace(ObjectId id, ObjectId by) {
+    MapObject object = *map_.FindObject(id);
+    object.state = ObjectState::kAbsent;
+    object.absent_since = kNow;
+    map_.SetObject(std::move(object));
+    list_.OnDisplaced(map_, id, by, kNow, session_);
+  }
   void Arrive(ObjectId id) { list_.OnArrived(map_, id, kNow, session_); }
   std::vector<MapChangeKind> Kinds() const {
     std::vector<MapChangeKind> kinds;
@@ -243,6 +250,24 @@ TEST_F(ChangeListTest, DisplacedThingsAreReplacedOnceByEachNewOne) {
   EXPECT_EQ(Kinds(), std::vector{Kind::kReplaced});
   list_.OnDisplaced(map_, cup, bear, kNow, 0);
   EXPECT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kRemoved}));
+}
+
+TEST_F(ChangeListTest, TakesAReplacementBackWhenTheOldThingIsSeenBesideTheNewOne) {
+  const ObjectId chair = AddObject(kHere, 0, 5);
+  const ObjectId bear = AddObject(kHere, 8, 9, kBearClass, 5.0F);
+  Displace(chair, bear);
+  ASSERT_EQ(Kinds(), std::vector{Kind::kReplaced});
+  list_.OnArrived(map_, chair, Stamp{10'000'000'000LL}, session_);
+  EXPECT_EQ(Kinds(), std::vector{Kind::kAdded}) << "the bear's place had been empty";
+  EXPECT_EQ(map_.changes()[0].object, bear);
+}
+
+TEST_F(ChangeListTest, KeepsAReplacementWhenTheOldThingIsBackMuchLater) {
+  const ObjectId chair = AddObject(kHere, 0, 5);
+  const ObjectId bear = AddObject(kHere, 8, 9, kBearClass, 5.0F);
+  Displace(chair, bear);
+  list_.OnArrived(map_, chair, Stamp{60'000'000'000LL}, session_);
+  EXPECT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kAdded}));
 }
 
 TEST_F(ChangeListTest, GivesTheReplacementToTheLargerOfTwoThatAreGone) {

@@ -141,8 +141,7 @@ int ObjectLayer::TakeEvidence(Map& map, const KeyframeProposal& proposal) const 
     const bool is_mistake = IsMistake(object);
     map.SetObject(std::move(object));
     if (is_mistake) {
-      changes_.OnMistake(map, *id);
-      map.EraseObject(*id, Map::PointsOfErased::kKeep);
+      EraseMistake(map, *id);
       ++changed;
       continue;
     }
@@ -151,11 +150,19 @@ int ObjectLayer::TakeEvidence(Map& map, const KeyframeProposal& proposal) const 
   return changed;
 }
 
-// What a detector named once or twice and hardly ever since, though it stood before it.
+// What a detector named once or twice and hardly ever since, though it stood before it; or of which
+// little is left, once what belongs to other things was taken away.
 bool ObjectLayer::IsMistake(const MapObject& object) const {
+  if (object.state != ObjectState::kPresent) return false;
+  if (object.box.size_m.maxCoeff() < classes_.MinExtentM(object.class_id)) return true;
   const int num_views = object.num_named_views + object.num_unnamed_views;
-  return object.state == ObjectState::kPresent && num_views >= options_.objects.min_doubt_views &&
+  return num_views >= options_.objects.min_doubt_views &&
          object.num_named_views < options_.objects.min_named_share * num_views;
+}
+
+void ObjectLayer::EraseMistake(Map& map, ObjectId id) const {
+  changes_.OnMistake(map, id);
+  map.EraseObject(id, Map::PointsOfErased::kKeep);
 }
 
 // Draws the consequences of a belief. Returns whether there were any.
@@ -244,6 +251,10 @@ int ObjectLayer::DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& p
   }
   for (const ObjectId other_id : found.gone) {
     MapObject other = *map.FindObject(other_id);
+    if (IsMistake(other)) {
+      EraseMistake(map, other_id);
+      continue;
+    }
     other.state = ObjectState::kAbsent;
     other.is_active = false;
     other.log_odds = std::min(other.log_odds, LogOdds(options_.objects.belief.absent_at));

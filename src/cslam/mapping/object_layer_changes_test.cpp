@@ -131,6 +131,18 @@ TEST_F(ObjectLayerTest, DisplacesNothingThatIsStillSeen) {
   EXPECT_EQ(Object(0).state, ObjectState::kPresent);
 }
 
+TEST_F(ObjectLayerTest, TellsNothingOfAPieceThatIsLeftOfAThing) {
+  room_.things = {Chair(kPlace)};
+  Settle(front_);
+  MapObject sliver = Object(0);
+  sliver.box.size_m = {0.1, 0.02, 0.02};  // the rest turned out to belong to others
+  map_.SetObject(sliver);
+  room_.things.clear();
+  Insert(front_, std::vector{Through(ObjectId(0), 4)});
+  EXPECT_EQ(map_.FindObject(ObjectId(0)), nullptr);
+  EXPECT_TRUE(map_.changes().empty());
+}
+
 TEST_F(ObjectLayerTest, MarksChangesBetweenSessions) {
   room_.things = {Chair(kPlace)};
   Settle(front_);
