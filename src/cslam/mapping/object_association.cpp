@@ -190,8 +190,8 @@ std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sight
   std::vector<PlacedSighting> placed;
   for (const ObjectSighting* sighting : Candidates(sightings, classes)) {
     PlacedSighting one = Place(*sighting, sighting->region, view, T_world_camera);
-    if (static_cast<int>(one.points_camera.size()) >= options.min_voxels)
-      placed.push_back(std::move(one));
+    if (static_cast<int>(one.points_camera.size()) < options.min_voxels) continue;
+    if (!classes.IsTooLarge(sighting->class_id, one.extent_m)) placed.push_back(std::move(one));
   }
   return placed;
 }

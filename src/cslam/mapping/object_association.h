@@ -25,7 +25,8 @@ struct PlacedSighting {
 PlacedSighting Place(const ObjectSighting& sighting, const DepthRegion& region,
                      const DepthView& view, const Se3& T_world_camera);
 
-// Sightings that may become objects of the map: mapped classes, enough surface.
+// Sightings that may become objects of the map: mapped classes, enough surface, and no more of it
+// than such a thing can have.
 std::vector<PlacedSighting> PlaceSightings(std::span<const ObjectSighting> sightings,
                                            const DepthView& view, const Se3& T_world_camera,
                                            const ObjectClasses& classes,

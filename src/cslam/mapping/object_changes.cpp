@@ -257,10 +257,15 @@ void ChangeList::AddJoined(Map& map, const MapChange& change) const {
 }
 
 // Known better, what was added may turn out to be what is missing elsewhere.
-void ChangeList::RejoinAdded(Map& map, const MapChange& added) const {
-  std::vector<MapChange> others = map.changes();
-  std::erase(others, added);
-  map.SetChanges(std::move(others));
+void ChangeList::RejoinAdded(Map& map, MapChange added, Stamp now) const {
+  std::vector<MapChange> changes = map.changes();
+  const bool has_partner =
+      std::any_of(changes.begin(), changes.end(),
+                  [&](const MapChange& told) { return PairUp(map, added, told).has_value(); });
+  if (!has_partner) return;
+  std::erase(changes, added);
+  map.SetChanges(std::move(changes));
+  added.reported = now;
   AddJoined(map, added);
 }
 
@@ -283,14 +288,16 @@ bool ChangeList::TakeBackDisplacement(Map& map, ObjectId id, Stamp now,
   return true;
 }
 
+void ChangeList::OnSeenAgain(Map& map, ObjectId id, Stamp now) const {
+  const auto told = ToldArrival(map, id);
+  if (told && IsSingle(*told, MapChangeKind::kAdded)) RejoinAdded(map, *told, now);
+}
+
 void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t session) const {
   const MapObject& object = *map.FindObject(id);
   const bool is_back = object.absent_since.has_value();
   if (is_back && TakeBackDisplacement(map, id, now, session)) return;
-  if (const auto told = is_back ? std::nullopt : ToldArrival(map, id)) {
-    if (IsSingle(*told, MapChangeKind::kAdded)) RejoinAdded(map, *told);
-    return;
-  }
+  if (!is_back && ToldArrival(map, id)) return OnSeenAgain(map, id, now);
   const ViewsBefore before =
       is_back ? ViewsBefore{} : LookBack(map, object, camera_, session, options_.view);
   const bool was_empty = is_back || (before.num_through >= options_.min_views_before &&
@@ -369,6 +376,9 @@ void ChangeList::OnMistake(Map& map, ObjectId object) const {
 
 void ChangeList::OnMerged(Map& map, ObjectId keep, ObjectId drop) const {
   std::vector<MapChange> changes = map.changes();
+  const auto told = ToldArrival(map, drop);
+  if (told && IsSingle(*told, MapChangeKind::kAdded) && ToldArrival(map, keep))
+    std::erase(changes, *told);  // it came once
   for (MapChange& change : changes) {
     if (change.object == drop) change.object = keep;
     if (change.new_object == drop) change.new_object = keep;

@@ -33,6 +33,9 @@ class ChangeList {
   // since. Does nothing if its arrival is told already.
   void OnArrived(Map& map, ObjectId object, Stamp now, std::uint32_t session) const;
 
+  // What was told to have come is known better by now: is it what is missing elsewhere?
+  void OnSeenAgain(Map& map, ObjectId object, Stamp now) const;
+
   // Another thing stands where the object stood.
   void OnDisplaced(Map& map, ObjectId object, ObjectId by, Stamp now, std::uint32_t session) const;
 
@@ -54,7 +57,7 @@ class ChangeList {
   std::optional<Pairing> PairUp(const MapView& map, const MapChange& change,
                                 const MapChange& told) const;
   void AddJoined(Map& map, const MapChange& change) const;
-  void RejoinAdded(Map& map, const MapChange& added) const;
+  void RejoinAdded(Map& map, MapChange added, Stamp now) const;
   bool TakeBackDisplacement(Map& map, ObjectId id, Stamp now, std::uint32_t session) const;
   bool Join(const MapView& map, MapChange& change, const MapChange& other) const;
 

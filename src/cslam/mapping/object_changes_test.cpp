@@ -306,6 +306,16 @@ TEST_F(ChangeListTest, ForgetsMovesOfAThingToItselfWhenTwoBecomeOne) {
   EXPECT_TRUE(map_.changes().empty());
 }
 
+TEST_F(ChangeListTest, TellsOneArrivalOfAThingThatWasTakenForTwo) {
+  const ObjectId chair = AddObject(kHere, 8, 12);
+  const ObjectId twin = AddObject(kHere, 9, 12);
+  Arrive(chair);
+  Arrive(twin);
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kAdded}));
+  list_.OnMerged(map_, chair, twin);
+  EXPECT_EQ(Kinds(), std::vector{Kind::kAdded});
+}
+
 TEST_F(ChangeListTest, LeavesOneMoveToAThingThatWasTakenForTwo) {
   const ObjectId chair = AddObject(kHere, 0, 5);
   const ObjectId bear = AddObject(kHere, 0, 5, kBearClass, 5.0F);

@@ -20,6 +20,16 @@ BeliefCause CauseOf(const ObjectEvidence& evidence) {
                                                            : BeliefCause::kMissed;
 }
 
+// Nobody believed in what was suspected there long ago: what is seen there now may well be new.
+void ForgetFirstSight(MapObject& object, KeyframeId keyframe, Stamp seen, double after_s) {
+  if (object.state != ObjectState::kCandidate || object.num_sightings == 0 ||
+      SecondsBetween(seen, object.last_seen) <= after_s) {
+    return;
+  }
+  object.first_keyframe = object.arrived_keyframe = keyframe;
+  object.first_seen = object.last_seen = seen;
+}
+
 }  // namespace
 
 ObjectLayer::ObjectLayer(const Camera& camera, const DepthOptions& depth,
@@ -78,7 +88,9 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
     const PlacedSighting parted =
         PartFromOthers(map, map_id_, sightings[i], known[i] ? map.FindObject(id) : nullptr, view,
                        T_world_camera, classes_, options_.objects);
-    map.SetObject(growth_.WithSighting(map, *map.FindObject(id), proposal, parted, UpWorld()));
+    MapObject object = *map.FindObject(id);
+    ForgetFirstSight(object, proposal.id, proposal.data->stamp, options_.objects.recognise_after_s);
+    map.SetObject(growth_.WithSighting(map, std::move(object), proposal, parted, UpWorld()));
     report.num_new += known[i] ? 0 : 1;
     objects_of_tracks_[track] = id;
     seen.push_back(id);
@@ -134,7 +146,11 @@ int ObjectLayer::TakeEvidence(Map& map, const KeyframeProposal& proposal) const 
     MapObject object = *map.FindObject(*id);
     if (!MayUpdate(map, object, proposal.id)) continue;
     object.log_odds = UpdatedLogOdds(object.log_odds, evidence.log_ratio, options_.objects.belief);
-    if (evidence.last_seen) object.last_seen = std::max(object.last_seen, *evidence.last_seen);
+    if (evidence.last_seen) {
+      ForgetFirstSight(object, proposal.id, *evidence.last_seen,
+                       options_.objects.recognise_after_s);
+      object.last_seen = std::max(object.last_seen, *evidence.last_seen);
+    }
     object.num_named_views += evidence.num_seen;
     object.num_unnamed_views += evidence.num_missed;
     if (evidence.log_ratio != 0.0) NoteBelief(object, proposal.data->stamp, CauseOf(evidence));
@@ -210,15 +226,17 @@ bool ObjectLayer::Decide(Map& map, ObjectId id, const KeyframeProposal& proposal
 }
 
 // At first sight little of a thing is known, and little of it may be right. So whether it is new
-// here is asked again until it has been seen well.
+// here is asked again until it has been seen well; and what is new, whether it came from elsewhere.
 void ObjectLayer::JudgeArrival(Map& map, ObjectId id, const KeyframeProposal& proposal) const {
   const MapObject& object = *map.FindObject(id);
-  if (object.state != ObjectState::kPresent || object.absent_since || object.num_sightings < 2 ||
-      object.num_sightings > options_.objects.settled_sightings) {
+  if (object.state != ObjectState::kPresent || object.absent_since || object.num_sightings < 2)
+    return;
+  const Stamp now = proposal.data->stamp;
+  if (object.num_sightings > options_.objects.settled_sightings) {
+    changes_.OnSeenAgain(map, id, now);
     return;
   }
-  changes_.OnArrived(map, id, proposal.data->stamp,
-                     static_cast<std::uint32_t>(map.SessionOf(proposal.id)));
+  changes_.OnArrived(map, id, now, static_cast<std::uint32_t>(map.SessionOf(proposal.id)));
 }
 
 void ObjectLayer::Activate(Map& map, ObjectId id) const {

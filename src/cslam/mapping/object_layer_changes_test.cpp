@@ -131,6 +131,25 @@ TEST_F(ObjectLayerTest, DisplacesNothingThatIsStillSeen) {
   EXPECT_EQ(Object(0).state, ObjectState::kPresent);
 }
 
+TEST_F(ObjectLayerTest, TellsAMoveToAPlaceWhereSomethingWasSuspectedBefore) {
+  const Eigen::Vector3d there(2.0, 0.2, 0.0);
+  const Se3 right = PoseLookingAt({0.0, 0.2, 0.0}, there);
+  room_.things = {Chair(there, 3)};
+  Insert(right);  // once: a candidate that nobody believes in
+  room_.things = {Chair(kPlace)};
+  Settle(front_);
+  room_.things.clear();
+  for (int i = 0; i < 3; ++i)
+    Insert(right);  // empty
+  room_.things = {Chair(there, 7)};
+  now_ = now_ + 5'000'000'000LL;
+  Settle(right);
+  Insert(front_, std::vector{Through(ObjectId(1), 4)});
+  ASSERT_EQ(map_.changes().size(), 1U);
+  EXPECT_EQ(map_.changes()[0].kind, MapChangeKind::kMoved);
+  EXPECT_EQ(map_.changes()[0].new_object, ObjectId(0));
+}
+
 TEST_F(ObjectLayerTest, TellsNothingOfAPieceThatIsLeftOfAThing) {
   room_.things = {Chair(kPlace)};
   Settle(front_);

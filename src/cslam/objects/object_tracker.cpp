@@ -5,6 +5,7 @@
 #include "cslam/objects/detection_regions.h"
 #include "cslam/objects/object_classes.h"
 #include "cslam/objects/region_outline.h"
+#include "cslam/objects/second_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,8 @@ void ObjectTracker::Observe(FrameId frame, Stamp stamp, const cv::Mat& depth_m,
     Detections undistorted = *detections;
     for (Detection& detection : undistorted.objects)
       detection.box = views_.Undistorted(detection.box);
+    undistorted.objects =
+        WithoutSecondNames(std::move(undistorted.objects), options_.second_name_iou);
     TakeIn(undistorted);
   }
   Forget();

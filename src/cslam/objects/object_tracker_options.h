@@ -19,6 +19,7 @@ struct ObjectTrackerOptions {
   bool hold_back_new = false;   // until they are known to rest, as in the paper
   bool filter_motion = true;    // trust movable things again once the filter finds them static
   double min_iou = 0.3;         // for a detection to be a known object
+  double second_name_iou = 0.85;  // of two boxes: one thing called by two names
   double min_inside = 0.7;      // or for its region to be a piece of the detection's
   double bridge_s = 1.0;        // how long an undetected object is carried on
   double first_bridge_s = 0.2;  // ... if it was detected only once
