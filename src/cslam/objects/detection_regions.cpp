@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/objects/detection_regions.h"
 
+#include "cslam/objects/region_outline.h"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace cslam {
 namespace {
@@ -20,21 +24,22 @@ bool SitsOn(const Box& a, const Box& b) {
 // People first, then what sits on something before what it sits on, then nearer things, so that
 // those behind leave out what is covered: the box of a chair behind somebody is full of that
 // person, and that of a chair with a bear has the bear in the middle.
-std::vector<std::size_t> FrontToBack(const std::vector<Detection>& detections,
-                                     const std::vector<DepthRegion>& regions) {
+std::vector<std::size_t> FrontToBack(const std::vector<SegmentedDetection>& detections) {
   std::vector<std::size_t> left(detections.size());
   std::iota(left.begin(), left.end(), std::size_t{0});
   std::vector<int> num_on(detections.size());  // of those left that sit on it
   const auto count = [&](std::size_t upper, int change) {
     for (const std::size_t i : left) {
-      if (i != upper && SitsOn(detections[upper].box, detections[i].box)) num_on[i] += change;
+      if (i != upper && SitsOn(detections[upper].detection.box, detections[i].detection.box))
+        num_on[i] += change;
     }
   };
   for (const std::size_t i : left)
     count(i, 1);
   const auto rank = [&](std::size_t i) {
-    const bool is_person = detections[i].class_id == kPersonClass;
-    const float z = regions[i].empty() ? std::numeric_limits<float>::max() : regions[i].median_m;
+    const auto& [detection, region] = detections[i];
+    const bool is_person = detection.class_id == kPersonClass;
+    const float z = region.empty() ? std::numeric_limits<float>::max() : region.median_m;
     return std::tuple(!is_person, num_on[i] > 0, z, i);
   };
   std::vector<std::size_t> order;
@@ -56,27 +61,54 @@ DepthRegion Segment(const DepthView& view, const Detection& detection, const cv:
              : SegmentMask(view, detection.box, detection.mask, is_person, excluded, options);
 }
 
+// Whether a is called like b and shows part of the same surface.
+bool IsPieceOf(const SegmentedDetection& a, const SegmentedDetection& b) {
+  constexpr double kInside = 0.7;
+  constexpr float kSameDepthM = 0.3F;  // farther apart one stands before the other
+  return a.detection.class_id == b.detection.class_id && a.detection.class_id != kPersonClass &&
+         SitsOn(a.detection.box, b.detection.box) && ShareInside(a.region, b.region) > kInside &&
+         std::abs(a.region.median_m - b.region.median_m) < kSameDepthM;
+}
+
+// Several pieces of one thing are rather several things, in a box around them all.
+std::vector<SegmentedDetection> WithoutPieces(std::vector<SegmentedDetection> detections) {
+  std::vector<bool> is_piece(detections.size());
+  for (const SegmentedDetection& whole : detections) {
+    const auto is_piece_of_it = [&](const auto& other) { return IsPieceOf(other, whole); };
+    const auto piece = std::find_if(detections.begin(), detections.end(), is_piece_of_it);
+    if (std::count_if(piece, detections.end(), is_piece_of_it) == 1)
+      is_piece[static_cast<std::size_t>(piece - detections.begin())] = true;
+  }
+  std::vector<SegmentedDetection> wholes;
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    if (!is_piece[i]) wholes.push_back(std::move(detections[i]));
+  }
+  return wholes;
+}
+
 }  // namespace
 
-std::vector<DepthRegion> SegmentDetections(const DepthView& view,
-                                           const std::vector<Detection>& detections,
-                                           const RegionOptions& options) {
-  std::vector<DepthRegion> regions;
-  regions.reserve(detections.size());
+std::vector<SegmentedDetection> SegmentDetections(const DepthView& view,
+                                                  const std::vector<Detection>& detections,
+                                                  const RegionOptions& options) {
+  std::vector<SegmentedDetection> segmented;
+  segmented.reserve(detections.size());
   for (const Detection& detection : detections)
-    regions.push_back(Segment(view, detection, {}, options));
+    segmented.push_back({detection, Segment(view, detection, {}, options)});
+  segmented = WithoutPieces(std::move(segmented));
   cv::Mat taken;
-  for (const std::size_t i : FrontToBack(detections, regions)) {
-    const Detection& detection = detections[i];
-    bool overlaps = false;
-    for (const Detection& other : detections)
-      overlaps = overlaps || (&other != &detection && Iou(other.box, detection.box) > 0.0);
-    if (overlaps && !taken.empty()) regions[i] = Segment(view, detection, taken, options);
-    if (regions[i].empty()) continue;
-    if (taken.empty()) taken = cv::Mat::zeros(regions[i].mask.size(), CV_8UC1);
-    taken.setTo(255, regions[i].mask);
+  for (const std::size_t i : FrontToBack(segmented)) {
+    const Detection& detection = segmented[i].detection;
+    const bool overlaps = std::any_of(segmented.begin(), segmented.end(), [&](const auto& other) {
+      return &other != &segmented[i] && Iou(other.detection.box, detection.box) > 0.0;
+    });
+    if (overlaps && !taken.empty()) segmented[i].region = Segment(view, detection, taken, options);
+    const DepthRegion& region = segmented[i].region;
+    if (region.empty()) continue;
+    if (taken.empty()) taken = cv::Mat::zeros(region.mask.size(), CV_8UC1);
+    taken.setTo(255, region.mask);
   }
-  return regions;
+  return segmented;
 }
 
 }  // namespace cslam

@@ -9,11 +9,16 @@
 
 namespace cslam {
 
+struct SegmentedDetection {
+  Detection detection;
+  DepthRegion region;  // empty where depth shows nothing
+};
+
 // What each of the detections covers in the depth view of its frame, their boxes being in pixels
-// of that view's camera. Those behind leave out what those in front cover. One region per
-// detection, empty where depth shows nothing.
-std::vector<DepthRegion> SegmentDetections(const DepthView& view,
-                                           const std::vector<Detection>& detections,
-                                           const RegionOptions& options);
+// of that view's camera. Those behind leave out what those in front cover. A detection of a mere
+// piece, inside that of the whole thing by the same name, is left out; the order is kept.
+std::vector<SegmentedDetection> SegmentDetections(const DepthView& view,
+                                                  const std::vector<Detection>& detections,
+                                                  const RegionOptions& options);
 
 }  // namespace cslam

@@ -144,18 +144,19 @@ std::vector<BoxOverlap> ObjectTracker::Overlaps(const Frame& frame, const Detect
 
 void ObjectTracker::Associate(const Frame& frame, const std::vector<Detection>& detections) {
   const bool is_late = frame.id != now_.id;
-  std::vector<DepthRegion> regions = SegmentDetections(frame.view, detections, options_.region);
+  auto segmented = SegmentDetections(frame.view, detections, options_.region);
   std::vector<BoxOverlap> overlaps;
-  for (std::size_t d = 0; d < detections.size(); ++d) {
+  for (std::size_t d = 0; d < segmented.size(); ++d) {
+    const auto& [detection, region] = segmented[d];
     Object stranger;
-    stranger.class_id = detections[d].class_id;
-    const std::vector<BoxOverlap> more = Overlaps(
-        frame, detections[d], d, is_late ? Carried(frame, regions[d], stranger) : regions[d]);
+    stranger.class_id = detection.class_id;
+    const std::vector<BoxOverlap> more =
+        Overlaps(frame, detection, d, is_late ? Carried(frame, region, stranger) : region);
     overlaps.insert(overlaps.end(), more.begin(), more.end());
   }
-  const auto match = MatchBestFirst(std::move(overlaps), detections.size());
-  for (std::size_t d = 0; d < detections.size(); ++d)
-    Renew(match[d], detections[d], std::move(regions[d]), frame);
+  const auto match = MatchBestFirst(std::move(overlaps), segmented.size());
+  for (std::size_t d = 0; d < segmented.size(); ++d)
+    Renew(match[d], segmented[d].detection, std::move(segmented[d].region), frame);
   std::vector<TrackId> renewed;
   for (const Object& object : objects_) {
     if (object.detected == frame.stamp && !object.is_person() && object.class_id >= 0)
