@@ -259,9 +259,9 @@ void ChangeList::AddJoined(Map& map, const MapChange& change) const {
 // Known better, what was added may turn out to be what is missing elsewhere.
 void ChangeList::RejoinAdded(Map& map, MapChange added, Stamp now) const {
   std::vector<MapChange> changes = map.changes();
-  const bool has_partner =
-      std::any_of(changes.begin(), changes.end(),
-                  [&](const MapChange& told) { return PairUp(map, added, told).has_value(); });
+  const bool has_partner = std::any_of(changes.begin(), changes.end(), [&](const MapChange& told) {
+    return PairUp(map, added, told).has_value();
+  });
   if (!has_partner) return;
   std::erase(changes, added);
   map.SetChanges(std::move(changes));

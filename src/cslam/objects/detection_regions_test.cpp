@@ -71,8 +71,8 @@ TEST(SegmentDetections, KeepsTwoThingsInABoxAroundThemBoth) {
   const double middle = 0.5 * (both.x_min + both.x_max);
   const Box left{both.x_min, both.y_min, middle, both.y_max};
   const Box right{middle, both.y_min, both.x_max, both.y_max};
-  const auto found = SegmentDetections(
-      ViewOf(depth_m), {Of(kChair, both), Of(kChair, left), Of(kChair, right)}, {});
+  const auto found = SegmentDetections(ViewOf(depth_m),
+                                       {Of(kChair, both), Of(kChair, left), Of(kChair, right)}, {});
   EXPECT_EQ(found.size(), 3U);
 }
 

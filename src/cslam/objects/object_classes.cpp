@@ -40,8 +40,10 @@ void Describe(OptionList& list, ObjectClassOptions& o) {
   list.Add("min_extent", o.min_extent, {0.0, 1.0}, "",
            "What shows less than this share of its distance, across the view, is a piece of "
            "something half hidden: no new object. Only for classes in 'distances'.");
-  list.Add("sizes", o.sizes,
-           "Usual lengths of the largest side, in m: class=from:to, with blanks between.");
+  list.Add(
+      "sizes", o.sizes,
+      "Usual lengths of the largest side, in m: class=from:to, with blanks between. What shows "
+      "more of itself is no such thing.");
   list.Add("wrong_size_weight", o.wrong_size_weight, {0.0, 1.0}, "",
            "What a detection counts as vote for a class if the thing is larger or smaller: a "
            "suitcase is not as high as a chair.");

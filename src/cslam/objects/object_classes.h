@@ -17,13 +17,15 @@ struct ObjectClassOptions {
   std::string distances =
       "bottle=0.2 wine_glass=0.2 cup=0.2 bowl=0.25 vase=0.3 book=0.3 mouse=0.2 keyboard=0.4 "
       "cell_phone=0.2 remote=0.2 clock=0.3 tv=0.5 laptop=0.5 teddy_bear=0.5 potted_plant=0.6 "
-      "suitcase=0.6 backpack=0.6 umbrella=0.6 chair=1.0 couch=1.5 bench=1.0 bed=2.0 dining_table=1.5 "
+      "suitcase=0.6 backpack=0.6 umbrella=0.6 chair=1.0 couch=1.5 bench=1.0 bed=2.0 "
+      "dining_table=1.5 "
       "refrigerator=1.0";
   double default_distance_m = 0.6;
   double min_extent = 0.3;
   // Largest side, from ... to ... metres, of those that are often taken for one another.
   std::string sizes =
-      "chair=0.7:1.4 couch=1.0:3.0 bench=1.1:3.0 suitcase=0.3:0.95 backpack=0.3:0.8 handbag=0.15:0.6 "
+      "chair=0.7:1.4 couch=1.0:3.0 bench=1.1:3.0 suitcase=0.3:0.95 backpack=0.3:0.8 "
+      "handbag=0.15:0.6 "
       "cup=0.05:0.2 bowl=0.08:0.4 bottle=0.1:0.4 vase=0.1:0.8 tv=0.25:2.0 laptop=0.2:0.6 "
       "teddy_bear=0.1:0.9";
   double wrong_size_weight = 0.2;
