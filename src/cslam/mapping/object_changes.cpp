@@ -269,22 +269,27 @@ void ChangeList::RejoinAdded(Map& map, MapChange added, Stamp now) const {
   AddJoined(map, added);
 }
 
-// What nobody looked through, and is seen again beside what seemed to have taken its place, never
-// went.
-bool ChangeList::TakeBackDisplacement(Map& map, ObjectId id, Stamp now,
-                                      std::uint32_t session) const {
+// What nobody looked through, and is seen again, never went; unless what took its place has gone
+// meanwhile: then it may have been put back.
+bool ChangeList::TakeBackDisplacement(Map& map, ObjectId id, Stamp now) const {
   const auto told = ToldDeparture(map, id);
-  if (!told || told->kind != MapChangeKind::kReplaced || told->num_absent_views > 0) return false;
+  if (!told || told->num_absent_views > 0 || told->kind == MapChangeKind::kMoved) return false;
   const ObjectId comer_id = told->new_object;
   const MapObject* comer = map.FindObject(comer_id);
-  if (comer == nullptr || comer->state != ObjectState::kPresent ||
-      SecondsBetween(now, comer->last_seen) > options_.recognise_after_s) {
+  if (told->kind == MapChangeKind::kReplaced &&
+      (comer == nullptr || comer->state != ObjectState::kPresent ||
+       HasPassed(comer->last_seen, now, options_.recognise_after_s))) {
     return false;
   }
   std::vector<MapChange> changes = map.changes();
   std::erase(changes, *told);
   map.SetChanges(std::move(changes));
-  OnArrived(map, comer_id, now, session);
+  if (comer == nullptr) return true;
+  if (comer->arrived_keyframe == comer->first_keyframe) {
+    OnArrived(map, comer_id, now, comer->first_session);
+  } else {
+    AddJoined(map, ComeHalf(map, *told));  // it had come back
+  }
   return true;
 }
 
@@ -296,7 +301,7 @@ void ChangeList::OnSeenAgain(Map& map, ObjectId id, Stamp now) const {
 void ChangeList::OnArrived(Map& map, ObjectId id, Stamp now, std::uint32_t session) const {
   const MapObject& object = *map.FindObject(id);
   const bool is_back = object.absent_since.has_value();
-  if (is_back && TakeBackDisplacement(map, id, now, session)) return;
+  if (is_back && TakeBackDisplacement(map, id, now)) return;
   if (!is_back && ToldArrival(map, id)) return OnSeenAgain(map, id, now);
   const ViewsBefore before =
       is_back ? ViewsBefore{} : LookBack(map, object, camera_, session, options_.view);

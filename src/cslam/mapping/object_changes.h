@@ -30,7 +30,7 @@ class ChangeList {
   void OnGone(Map& map, ObjectId object, Stamp now, int num_views, std::uint32_t session) const;
 
   // The object is believed in for the first time, or again after it was gone, or is known better
-  // since. Does nothing if its arrival is told already.
+  // since. If its arrival is told already, only asks again whether it is what is missing elsewhere.
   void OnArrived(Map& map, ObjectId object, Stamp now, std::uint32_t session) const;
 
   // What was told to have come is known better by now: is it what is missing elsewhere?
@@ -58,7 +58,7 @@ class ChangeList {
                                 const MapChange& told) const;
   void AddJoined(Map& map, const MapChange& change) const;
   void RejoinAdded(Map& map, MapChange added, Stamp now) const;
-  bool TakeBackDisplacement(Map& map, ObjectId id, Stamp now, std::uint32_t session) const;
+  bool TakeBackDisplacement(Map& map, ObjectId id, Stamp now) const;
   bool Join(const MapView& map, MapChange& change, const MapChange& other) const;
 
   const Camera camera_;

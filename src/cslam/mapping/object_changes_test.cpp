@@ -252,6 +252,32 @@ TEST_F(ChangeListTest, DisplacedThingsAreReplacedOnceByEachNewOne) {
   EXPECT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kRemoved}));
 }
 
+TEST_F(ChangeListTest, TellsAMoveOnceTheNewThingIsKnownByItsColours) {
+  const ObjectId chair = AddObject(kHere, 0, 5);
+  const ObjectId other = AddObject(kThere, 8, 12, kChairClass, 5.0F);  // half hidden at first
+  Leave(chair);
+  Arrive(other);
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kAdded}));
+  MapObject known = *map_.FindObject(other);
+  known.colours = map_.FindObject(chair)->colours;
+  map_.SetObject(known);
+  const Stamp later{12'000'000'000LL};
+  list_.OnSeenAgain(map_, other, later);
+  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  EXPECT_EQ(map_.changes()[0].reported, later);
+}
+
+TEST_F(ChangeListTest, TakesTheRemovalOfASecondDisplacedThingBack) {
+  const ObjectId chair = AddObject(kHere, 0, 5);
+  const ObjectId cup = AddObject(kHere, 0, 5, 41, 1.0F, 0.1);
+  const ObjectId bear = AddObject(kHere, 8, 9, kBearClass, 5.0F);
+  Displace(chair, bear);
+  Displace(cup, bear);
+  ASSERT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kRemoved}));
+  list_.OnArrived(map_, cup, kNow, session_);
+  EXPECT_EQ(Kinds(), std::vector{Kind::kReplaced});
+}
+
 TEST_F(ChangeListTest, TakesAReplacementBackWhenTheOldThingIsSeenBesideTheNewOne) {
   const ObjectId chair = AddObject(kHere, 0, 5);
   const ObjectId bear = AddObject(kHere, 8, 9, kBearClass, 5.0F);

@@ -21,13 +21,42 @@ BeliefCause CauseOf(const ObjectEvidence& evidence) {
 }
 
 // Nobody believed in what was suspected there long ago: what is seen there now may well be new.
-void ForgetFirstSight(MapObject& object, KeyframeId keyframe, Stamp seen, double after_s) {
+void ForgetFirstSight(MapObject& object, const Map& map, KeyframeId keyframe, Stamp seen,
+                      double after_s) {
   if (object.state != ObjectState::kCandidate || object.num_sightings == 0 ||
-      SecondsBetween(seen, object.last_seen) <= after_s) {
+      !HasPassed(object.last_seen, seen, after_s)) {
     return;
   }
   object.first_keyframe = object.arrived_keyframe = keyframe;
+  object.first_session = static_cast<std::uint32_t>(map.SessionOf(keyframe));
   object.first_seen = object.last_seen = seen;
+}
+
+// Of two that are one: since when it is there. What only one of them was believed to be, counts.
+void TakeOverArrival(MapObject& keep, const MapObject& drop) {
+  const bool is_believed = keep.state != ObjectState::kCandidate;
+  const bool is_other_believed = drop.state != ObjectState::kCandidate;
+  const bool takes_over = is_believed == is_other_believed
+                              ? drop.first_keyframe < keep.first_keyframe
+                              : is_other_believed;
+  if (!takes_over) return;
+  keep.first_keyframe = drop.first_keyframe;
+  keep.arrived_keyframe = drop.arrived_keyframe;
+  keep.first_session = drop.first_session;
+  keep.first_seen = drop.first_seen;
+}
+
+// Of which less is left than any of the things shows that it was called.
+bool IsSliver(const MapObject& object, const ObjectClasses& classes) {
+  double min_extent_m = classes.MinExtentM(object.class_id);
+  for (const MapObject::ClassVote& vote : object.votes)
+    min_extent_m = std::min(min_extent_m, classes.MinExtentM(vote.class_id));
+  if (object.box.size_m.maxCoeff() >= min_extent_m || !object.surface) return false;
+  const std::vector<Eigen::Vector3f> points = TrustedPoints(*object.surface);
+  Eigen::AlignedBox3f extent;  // the object's own box may be that of its map points
+  for (const Eigen::Vector3f& p : points)
+    extent.extend(p);
+  return !points.empty() && static_cast<double>(extent.sizes().maxCoeff()) < min_extent_m;
 }
 
 }  // namespace
@@ -89,7 +118,8 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
         PartFromOthers(map, map_id_, sightings[i], known[i] ? map.FindObject(id) : nullptr, view,
                        T_world_camera, classes_, options_.objects);
     MapObject object = *map.FindObject(id);
-    ForgetFirstSight(object, proposal.id, proposal.data->stamp, options_.objects.recognise_after_s);
+    ForgetFirstSight(object, map, proposal.id, proposal.data->stamp,
+                     options_.objects.recognise_after_s);
     map.SetObject(growth_.WithSighting(map, std::move(object), proposal, parted, UpWorld()));
     report.num_new += known[i] ? 0 : 1;
     objects_of_tracks_[track] = id;
@@ -138,8 +168,10 @@ bool ObjectLayer::MayUpdate(const Map& map, const MapObject& object, KeyframeId 
   return between >= options_.objects.visit_gap_keyframes;
 }
 
+// All of it is taken in before anything is decided: what follows for one thing may depend on when
+// another was seen.
 int ObjectLayer::TakeEvidence(Map& map, const KeyframeProposal& proposal) const {
-  int changed = 0;
+  std::vector<std::pair<ObjectId, const ObjectEvidence*>> taken;
   for (const ObjectEvidence& evidence : proposal.objects.evidence) {
     const auto id = map.Resolve(evidence.object);
     if (!id) continue;
@@ -147,21 +179,28 @@ int ObjectLayer::TakeEvidence(Map& map, const KeyframeProposal& proposal) const 
     if (!MayUpdate(map, object, proposal.id)) continue;
     object.log_odds = UpdatedLogOdds(object.log_odds, evidence.log_ratio, options_.objects.belief);
     if (evidence.last_seen) {
-      ForgetFirstSight(object, proposal.id, *evidence.last_seen,
+      ForgetFirstSight(object, map, proposal.id, *evidence.last_seen,
                        options_.objects.recognise_after_s);
       object.last_seen = std::max(object.last_seen, *evidence.last_seen);
     }
     object.num_named_views += evidence.num_seen;
     object.num_unnamed_views += evidence.num_missed;
     if (evidence.log_ratio != 0.0) NoteBelief(object, proposal.data->stamp, CauseOf(evidence));
-    const bool is_mistake = IsMistake(object);
     map.SetObject(std::move(object));
-    if (is_mistake) {
-      EraseMistake(map, *id);
+    taken.emplace_back(*id, &evidence);
+  }
+  int changed = 0;
+  for (const auto& [id, evidence] : taken) {
+    const MapObject* object = map.FindObject(id);
+    if (object == nullptr) continue;
+    if (IsMistake(*object)) {
+      EraseMistake(
+          map, id,
+          evidence->num_through > 0 ? Map::PointsOfErased::kErase : Map::PointsOfErased::kKeep);
       ++changed;
       continue;
     }
-    changed += Decide(map, *id, proposal, evidence) ? 1 : 0;
+    changed += Decide(map, id, proposal, *evidence) ? 1 : 0;
   }
   return changed;
 }
@@ -170,15 +209,15 @@ int ObjectLayer::TakeEvidence(Map& map, const KeyframeProposal& proposal) const 
 // little is left, once what belongs to other things was taken away.
 bool ObjectLayer::IsMistake(const MapObject& object) const {
   if (object.state != ObjectState::kPresent) return false;
-  if (object.box.size_m.maxCoeff() < classes_.MinExtentM(object.class_id)) return true;
+  if (IsSliver(object, classes_)) return true;
   const int num_views = object.num_named_views + object.num_unnamed_views;
   return num_views >= options_.objects.min_doubt_views &&
          object.num_named_views < options_.objects.min_named_share * num_views;
 }
 
-void ObjectLayer::EraseMistake(Map& map, ObjectId id) const {
+void ObjectLayer::EraseMistake(Map& map, ObjectId id, Map::PointsOfErased points) const {
   changes_.OnMistake(map, id);
-  map.EraseObject(id, Map::PointsOfErased::kKeep);
+  map.EraseObject(id, points);
 }
 
 // Draws the consequences of a belief. Returns whether there were any.
@@ -270,7 +309,7 @@ int ObjectLayer::DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& p
   for (const ObjectId other_id : found.gone) {
     MapObject other = *map.FindObject(other_id);
     if (IsMistake(other)) {
-      EraseMistake(map, other_id);
+      EraseMistake(map, other_id, Map::PointsOfErased::kErase);
       continue;
     }
     other.state = ObjectState::kAbsent;
@@ -313,6 +352,7 @@ int ObjectLayer::MergeDoubles(Map& map, std::span<const ObjectId> seen, Stamp no
     keep.last_keyframe = std::max(keep.last_keyframe, drop.last_keyframe);
     keep.last_seen = drop.last_keyframe < keep.last_keyframe ? keep.last_seen : drop.last_seen;
     keep.track = drop.track;
+    TakeOverArrival(keep, drop);
     const bool becomes_present =
         keep.state != ObjectState::kPresent && drop.state == ObjectState::kPresent;
     if (becomes_present) keep.state = ObjectState::kPresent;

@@ -47,7 +47,7 @@ class ObjectLayer {
 
   bool IsOfKnownTrack(const Map& map, const PlacedSighting& sighting) const;
   bool IsMistake(const MapObject& object) const;
-  void EraseMistake(Map& map, ObjectId id) const;
+  void EraseMistake(Map& map, ObjectId id, Map::PointsOfErased points) const;
   bool IsPiece(const PlacedSighting& sighting) const;
   int TakeEvidence(Map& map, const KeyframeProposal& proposal) const;
   bool MayUpdate(const Map& map, const MapObject& object, KeyframeId keyframe) const;

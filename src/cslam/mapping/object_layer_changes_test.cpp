@@ -120,6 +120,22 @@ TEST_F(ObjectLayerTest, DisplacesWhatALaterThingStandsOn) {
   EXPECT_EQ(map_.changes()[0].new_object, ObjectId(1));
 }
 
+TEST_F(ObjectLayerTest, TakesADisplacementBackWhenBothAreSeenAtOnceLater) {
+  room_.things = {{BoxAt(kPlace, {0.3, 0.3, 0.3}), kBearClass, TrackId(1), 5.0F}};
+  Settle(front_);
+  room_.things = {Chair(kPlace, 2)};
+  for (const double x : {-1.5, 0.0, 1.5})
+    Settle(PoseLookingAt({x, 0.2, 0.3}, kPlace));
+  ASSERT_EQ(Object(0).state, ObjectState::kAbsent);
+  now_ = now_ + 10'000'000'000LL;
+  Insert(PoseLookingAt({0.0, 0.2, 0.0}, -kPlace),  // with what frames before it saw
+         std::vector{Seen(ObjectId(0), 5), Seen(ObjectId(1), 1)});
+  EXPECT_EQ(Object(0).state, ObjectState::kPresent);
+  ASSERT_EQ(map_.changes().size(), 1U);
+  EXPECT_EQ(map_.changes()[0].kind, MapChangeKind::kAdded);
+  EXPECT_EQ(map_.changes()[0].object, ObjectId(1)) << "beside the first one there was nothing";
+}
+
 TEST_F(ObjectLayerTest, DisplacesNothingThatIsStillSeen) {
   room_.things = {{BoxAt(kPlace + Eigen::Vector3d(0.0, 0.0, -0.22), {0.3, 0.3, 0.3}), kBearClass,
                    TrackId(1), 5.0F}};
@@ -154,7 +170,10 @@ TEST_F(ObjectLayerTest, TellsNothingOfAPieceThatIsLeftOfAThing) {
   room_.things = {Chair(kPlace)};
   Settle(front_);
   MapObject sliver = Object(0);
-  sliver.box.size_m = {0.1, 0.02, 0.02};  // the rest turned out to belong to others
+  ObjectSurface left = *sliver.surface;  // the rest turned out to belong to others
+  left.voxels.resize(2);
+  sliver.surface = std::make_shared<const ObjectSurface>(left);
+  sliver.box.size_m = {0.1, 0.02, 0.02};
   map_.SetObject(sliver);
   room_.things.clear();
   Insert(front_, std::vector{Through(ObjectId(0), 4)});

@@ -45,6 +45,13 @@ TEST_F(ObjectLayerTest, IsOneObjectWhenAChairIsSeenFromAllSides) {
   EXPECT_NEAR(Object(0).box.size_m.minCoeff(), 0.5, 0.1);
 }
 
+TEST_F(ObjectLayerTest, MakesNoBearOfWhatIsLargerThanBearsAre) {
+  room_.things = {{BoxAt(kPlace, {1.0, 1.2, 0.5}), kBearClass, TrackId(1), 5.0F}};
+  EXPECT_EQ(Insert(front_).num_new, 0);
+  room_.things[0].box = BoxAt(kPlace, {0.3, 0.4, 0.3});
+  EXPECT_EQ(Insert(front_).num_new, 1);
+}
+
 TEST_F(ObjectLayerTest, KeepsTwoChairsSideBySideApart) {
   room_.things = {Chair({-0.35, 0.2, 2.0}, 1), Chair({0.35, 0.2, 2.0}, 2)};
   for (int i = 0; i < 4; ++i)

@@ -39,7 +39,8 @@ void Describe(OptionList& list, MapObjectOptions& o) {
            "The same where nobody had seen the new place without it: it may have stood there all "
            "along.");
   list.Add("recognise_after", o.recognise_after_s, {0.0, 3600.0}, "s",
-           "What was out of sight for so long is known by its colours as well.");
+           "What was out of sight for so long is known by its colours as well; what was only "
+           "suspected until then counts as new.");
   list.Add("max_size_ratio", o.max_size_ratio, {1.0, 10.0}, "",
            "How much larger one may seem than the other.");
   list.Add("sure_max_size_ratio", o.sure_max_size_ratio, {1.0, 10.0}, "",

@@ -3,6 +3,7 @@
 #include "cslam/objects/detection_regions.h"
 
 #include "cslam/objects/region_outline.h"
+#include "cslam/util/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,20 +62,36 @@ DepthRegion Segment(const DepthView& view, const Detection& detection, const cv:
              : SegmentMask(view, detection.box, detection.mask, is_person, excluded, options);
 }
 
-// Whether a is called like b and shows part of the same surface.
-bool IsPieceOf(const SegmentedDetection& a, const SegmentedDetection& b) {
+float MedianDepthM(const DepthView& view, const cv::Mat& mask) {
+  std::vector<float> depths_m;
+  for (int v = 0; v < mask.rows; ++v) {
+    for (int u = 0; u < mask.cols; ++u) {
+      const float depth_m = mask.at<std::uint8_t>(v, u) != 0 ? view.DepthM(u, v) : 0.0F;
+      if (depth_m > 0.0F) depths_m.push_back(depth_m);
+    }
+  }
+  return depths_m.empty() ? 0.0F : MedianOf(std::move(depths_m));
+}
+
+// Whether a is called like b and shows part of the same surface; farther from the rest of b it
+// stands before it.
+bool IsPieceOf(const SegmentedDetection& a, const SegmentedDetection& b, const DepthView& view) {
   constexpr double kInside = 0.7;
-  constexpr float kSameDepthM = 0.3F;  // farther apart one stands before the other
-  return a.detection.class_id == b.detection.class_id && a.detection.class_id != kPersonClass &&
-         SitsOn(a.detection.box, b.detection.box) && ShareInside(a.region, b.region) > kInside &&
-         std::abs(a.region.median_m - b.region.median_m) < kSameDepthM;
+  constexpr float kSameDepthM = 0.3F;
+  if (a.detection.class_id != b.detection.class_id || a.detection.class_id == kPersonClass ||
+      !SitsOn(a.detection.box, b.detection.box) || ShareInside(a.region, b.region) <= kInside) {
+    return false;
+  }
+  const cv::Mat rest = b.region.mask & ~a.region.mask;
+  return std::abs(a.region.median_m - MedianDepthM(view, rest)) < kSameDepthM;
 }
 
 // Several pieces of one thing are rather several things, in a box around them all.
-std::vector<SegmentedDetection> WithoutPieces(std::vector<SegmentedDetection> detections) {
+std::vector<SegmentedDetection> WithoutPieces(std::vector<SegmentedDetection> detections,
+                                              const DepthView& view) {
   std::vector<bool> is_piece(detections.size());
   for (const SegmentedDetection& whole : detections) {
-    const auto is_piece_of_it = [&](const auto& other) { return IsPieceOf(other, whole); };
+    const auto is_piece_of_it = [&](const auto& other) { return IsPieceOf(other, whole, view); };
     const auto piece = std::find_if(detections.begin(), detections.end(), is_piece_of_it);
     if (std::count_if(piece, detections.end(), is_piece_of_it) == 1)
       is_piece[static_cast<std::size_t>(piece - detections.begin())] = true;
@@ -95,7 +112,7 @@ std::vector<SegmentedDetection> SegmentDetections(const DepthView& view,
   segmented.reserve(detections.size());
   for (const Detection& detection : detections)
     segmented.push_back({detection, Segment(view, detection, {}, options)});
-  segmented = WithoutPieces(std::move(segmented));
+  segmented = WithoutPieces(std::move(segmented), view);
   cv::Mat taken;
   for (const std::size_t i : FrontToBack(segmented)) {
     const Detection& detection = segmented[i].detection;

@@ -59,7 +59,7 @@ TEST(SegmentDetections, LeavesOutAPieceOfAThingOfTheSameName) {
 TEST(SegmentDetections, KeepsAThingInFrontOfAnotherOfTheSameName) {
   cv::Mat depth_m = Wall(4.0);
   const Box chair = DrawPanel(depth_m, 0.0, 0.0, 2.0, 0.8, 0.9);
-  const Box nearer = DrawPanel(depth_m, 0.0, 0.0, 1.5, 0.3, 0.3);
+  const Box nearer = DrawPanel(depth_m, -0.1, 0.0, 1.5, 0.3, 0.6);  // covers most of it
   const auto found =
       SegmentDetections(ViewOf(depth_m), {Of(kChair, chair), Of(kChair, nearer)}, {});
   EXPECT_EQ(found.size(), 2U);

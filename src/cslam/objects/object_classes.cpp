@@ -39,7 +39,8 @@ void Describe(OptionList& list, ObjectClassOptions& o) {
            "The same for all other classes.");
   list.Add("min_extent", o.min_extent, {0.0, 1.0}, "",
            "What shows less than this share of its distance, across the view, is a piece of "
-           "something half hidden: no new object. Only for classes in 'distances'.");
+           "something half hidden: no new object; nor is one of which no more is left. Only for "
+           "classes in 'distances'.");
   list.Add(
       "sizes", o.sizes,
       "Usual lengths of the largest side, in m: class=from:to, with blanks between. What shows "

@@ -18,7 +18,7 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
            "Use movable things again once their filter finds them static.");
   list.Add("min_iou", o.min_iou, {0.01, 1.0}, "",
            "Overlap of boxes from which on a detection is taken for a known object.");
-  list.Add("second_name_iou", o.second_name_iou, {0.0, 1.0}, "",
+  list.Add("second_name_iou", o.second_name_iou, {0.01, 1.0}, "",
            "Overlap of two boxes of different classes from which on they are one thing, called by "
            "two names; the better one stays.");
   list.Add("min_inside", o.min_inside, {0.0, 1.0}, "",

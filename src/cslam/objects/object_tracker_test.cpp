@@ -88,6 +88,15 @@ TEST_F(ObjectTrackerTest, BridgesFramesInWhichTheDetectorMissesThePerson) {
   EXPECT_EQ(LabelAt(0.5 * (box.x_min + box.x_max), 240, 2.0), KeypointLabel::kDynamic);
 }
 
+TEST_F(ObjectTrackerTest, FollowsAThingOfTwoNamesOnce) {
+  cv::Mat depth = Wall(4.0);
+  const Box box = DrawPanel(depth, 0.0, 0.2, 2.0, 0.5, 0.8);
+  constexpr int kSuitcase = 28;
+  PlayDetected(depth, {{kChair, box}, {kSuitcase, box}});
+  ASSERT_EQ(tracker_->objects().size(), 1U);
+  EXPECT_EQ(tracker_->objects()[0].class_id, kChair);
+}
+
 TEST_F(ObjectTrackerTest, ForgetsWhatIsGone) {
   cv::Mat depth = Wall(4.0);
   const Box box = DrawPanel(depth, 0.0, 0.0, 2.0, 0.5, 1.2);

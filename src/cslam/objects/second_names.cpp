@@ -3,29 +3,32 @@
 #include "cslam/objects/second_names.h"
 
 #include <algorithm>
-#include <tuple>
+#include <numeric>
 #include <utility>
 
 namespace cslam {
 
 std::vector<Detection> WithoutSecondNames(std::vector<Detection> detections, double max_iou) {
-  std::vector<bool> is_second(detections.size());
-  const auto is_better = [&](std::size_t a, std::size_t b) {
-    return std::tuple(-detections[a].score, a) < std::tuple(-detections[b].score, b);
-  };
-  for (std::size_t i = 0; i < detections.size(); ++i) {
+  std::vector<std::size_t> by_score(detections.size());
+  std::iota(by_score.begin(), by_score.end(), std::size_t{0});
+  std::stable_sort(by_score.begin(), by_score.end(), [&](std::size_t a, std::size_t b) {
+    return detections[a].score > detections[b].score;
+  });
+  std::vector<std::size_t> first_names;
+  for (const std::size_t i : by_score) {
     const Detection& one = detections[i];
-    if (one.class_id == kPersonClass) continue;
-    for (std::size_t j = 0; j < detections.size() && !is_second[i]; ++j) {
+    const bool is_second = std::any_of(first_names.begin(), first_names.end(), [&](std::size_t j) {
       const Detection& other = detections[j];
-      is_second[i] = other.class_id != one.class_id && other.class_id != kPersonClass &&
-                     is_better(j, i) && Iou(one.box, other.box) >= max_iou;
-    }
+      return one.class_id != other.class_id && one.class_id != kPersonClass &&
+             other.class_id != kPersonClass && Iou(one.box, other.box) >= max_iou;
+    });
+    if (!is_second) first_names.push_back(i);
   }
+  std::sort(first_names.begin(), first_names.end());
   std::vector<Detection> kept;
-  for (std::size_t i = 0; i < detections.size(); ++i) {
-    if (!is_second[i]) kept.push_back(std::move(detections[i]));
-  }
+  kept.reserve(first_names.size());
+  for (const std::size_t i : first_names)
+    kept.push_back(std::move(detections[i]));
   return kept;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kChair = 56;
 constexpr int kSuitcase = 28;
-constexpr double kMaxIou = 0.85;
+constexpr double kMaxIou = 0.8;
 const Box kBox{100.0, 100.0, 200.0, 200.0};
 
 std::vector<int> ClassesLeft(std::vector<Detection> detections) {
@@ -26,6 +26,14 @@ TEST(SecondNamesTest, TheBetterNameOfOneBoxStays) {
   EXPECT_EQ(ClassesLeft({{kChair, 0.5, kBox, {}}, {kSuitcase, 0.5, nearly, {}}}),
             std::vector{kChair})
       << "of equals the first";
+}
+
+TEST(SecondNamesTest, WhatIsDroppedDropsNothing) {
+  const Box right{108.0, 100.0, 208.0, 200.0};  // overlaps kBox by 0.85, as the next one does it
+  const Box farther{115.0, 100.0, 215.0, 200.0};
+  EXPECT_EQ(
+      ClassesLeft({{kChair, 0.6, kBox, {}}, {kSuitcase, 0.5, right, {}}, {62, 0.4, farther, {}}}),
+      (std::vector{kChair, 62}));
 }
 
 TEST(SecondNamesTest, WhatSitsOnAThingStays) {

@@ -10,18 +10,6 @@
 #include <numbers>
 
 namespace cslam {
-namespace {
-
-// Whether enough time has passed; clocks that jump back count as such.
-bool HasPassed(const std::optional<Stamp>& since, Stamp now, double interval_s) {
-  if (!since) return true;
-  constexpr double kSlackS = 1e-3;
-  const double passed_s = SecondsBetween(now, *since);
-  return passed_s < 0.0 || passed_s >= interval_s - kSlackS;
-}
-
-}  // namespace
-
 void Describe(OptionList& list, ObjectWatchOptions& o) {
   list.Add("enabled", o.enabled, "Gather evidence for and against the objects of the map.");
   list.Add("view_interval", o.view_interval_s, {0.0, 60.0}, "s",
@@ -134,7 +122,9 @@ void ObjectWatch::Judge(const ViewedObject& viewed, const WatchedFrame& frame) {
   Watched& watched = watched_.try_emplace(object.id).first->second;
   watched.evidence.object = object.id;
   ObjectEvidence& evidence = watched.evidence;
-  if (!HasPassed(watched.last_view, frame.stamp, options_.view_interval_s)) return;
+  if (watched.last_view && !HasPassed(*watched.last_view, frame.stamp, options_.view_interval_s)) {
+    return;
+  }
 
   if (viewed.expected.verdict == PlaceVerdict::kLookedThrough) {
     if (object.state == ObjectState::kAbsent) return;

@@ -22,6 +22,14 @@ constexpr double SecondsBetween(Stamp a, Stamp b) {
   return 1e-9 * static_cast<double>(a.ns - b.ns);
 }
 
+// Whether enough time has passed; clocks that jump back, and those of other recordings, count as
+// such.
+constexpr bool HasPassed(Stamp since, Stamp now, double interval_s) {
+  constexpr double kSlackS = 1e-3;
+  const double passed_s = SecondsBetween(now, since);
+  return passed_s < 0.0 || passed_s >= interval_s - kSlackS;
+}
+
 constexpr Stamp operator+(Stamp stamp, std::int64_t ns) {
   return Stamp{stamp.ns + ns};
 }
