@@ -269,16 +269,16 @@ void ChangeList::RejoinAdded(Map& map, MapChange added, Stamp now) const {
   AddJoined(map, added);
 }
 
-// What nobody looked through, and is seen again, never went; unless what took its place has gone
-// meanwhile: then it may have been put back.
+// What nobody looked through, and is seen again, never went; unless what took its place was there
+// and may have gone meanwhile: then it may have been put back. Nor does what was not told to go come.
 bool ChangeList::TakeBackDisplacement(Map& map, ObjectId id, Stamp now) const {
   const auto told = ToldDeparture(map, id);
-  if (!told || told->num_absent_views > 0 || told->kind == MapChangeKind::kMoved) return false;
+  if (!told) return true;
+  if (told->num_absent_views > 0 || told->kind == MapChangeKind::kMoved) return false;
   const ObjectId comer_id = told->new_object;
   const MapObject* comer = map.FindObject(comer_id);
-  if (told->kind == MapChangeKind::kReplaced &&
-      (comer == nullptr || comer->state != ObjectState::kPresent ||
-       HasPassed(comer->last_seen, now, options_.recognise_after_s))) {
+  if (comer != nullptr && (comer->state != ObjectState::kPresent ||
+                           HasPassed(comer->last_seen, now, options_.recognise_after_s))) {
     return false;
   }
   std::vector<MapChange> changes = map.changes();

@@ -49,8 +49,10 @@ void TakeOverArrival(MapObject& keep, const MapObject& drop) {
 // Of which less is left than any of the things shows that it was called.
 bool IsSliver(const MapObject& object, const ObjectClasses& classes) {
   double min_extent_m = classes.MinExtentM(object.class_id);
-  for (const MapObject::ClassVote& vote : object.votes)
-    min_extent_m = std::min(min_extent_m, classes.MinExtentM(vote.class_id));
+  for (const MapObject::ClassVote& vote : object.votes) {
+    const double of_vote_m = classes.MinExtentM(vote.class_id);
+    if (of_vote_m > 0.0) min_extent_m = std::min(min_extent_m, of_vote_m);
+  }
   if (object.box.size_m.maxCoeff() >= min_extent_m || !object.surface) return false;
   const std::vector<Eigen::Vector3f> points = TrustedPoints(*object.surface);
   Eigen::AlignedBox3f extent;  // the object's own box may be that of its map points
