@@ -270,7 +270,8 @@ void ChangeList::RejoinAdded(Map& map, MapChange added, Stamp now) const {
 }
 
 // What nobody looked through, and is seen again, never went; unless what took its place was there
-// and may have gone meanwhile: then it may have been put back. Nor does what was not told to go come.
+// and may have gone meanwhile: then it may have been put back. Nor does what was not told to go
+// come.
 bool ChangeList::TakeBackDisplacement(Map& map, ObjectId id, Stamp now) const {
   const auto told = ToldDeparture(map, id);
   if (!told) return true;

@@ -54,11 +54,10 @@ bool IsSliver(const MapObject& object, const ObjectClasses& classes) {
     if (of_vote_m > 0.0) min_extent_m = std::min(min_extent_m, of_vote_m);
   }
   if (object.box.size_m.maxCoeff() >= min_extent_m || !object.surface) return false;
+  // The object's own box may be that of its map points.
   const std::vector<Eigen::Vector3f> points = TrustedPoints(*object.surface);
-  Eigen::AlignedBox3f extent;  // the object's own box may be that of its map points
-  for (const Eigen::Vector3f& p : points)
-    extent.extend(p);
-  return !points.empty() && static_cast<double>(extent.sizes().maxCoeff()) < min_extent_m;
+  return !points.empty() &&
+         BoxAround(points, -Eigen::Vector3d::UnitY()).size_m.maxCoeff() < min_extent_m;
 }
 
 }  // namespace
