@@ -48,22 +48,24 @@ bool IsSingle(const MapChange& change, MapChangeKind kind) {
   return change.kind == kind && !change.new_object.valid();
 }
 
-// What was told last of the object's coming.
-std::optional<MapChange> ToldArrival(const MapView& map, ObjectId id) {
+template <class Predicate>
+std::optional<MapChange> LastTold(const MapView& map, const Predicate& matches) {
   const std::vector<MapChange>& changes = map.changes();
-  const auto told = std::find_if(changes.rbegin(), changes.rend(), [&](const MapChange& c) {
-    return c.new_object == id || (c.object == id && c.kind == MapChangeKind::kAdded);
-  });
+  const auto told = std::find_if(changes.rbegin(), changes.rend(), matches);
   return told == changes.rend() ? std::nullopt : std::optional(*told);
 }
 
-// What was told last of the object's going.
-std::optional<MapChange> ToldDeparture(const MapView& map, ObjectId id) {
-  const std::vector<MapChange>& changes = map.changes();
-  const auto told = std::find_if(changes.rbegin(), changes.rend(), [&](const MapChange& c) {
-    return c.object == id && c.kind != MapChangeKind::kAdded;
+// What was told last of the object's coming ...
+std::optional<MapChange> ToldArrival(const MapView& map, ObjectId id) {
+  return LastTold(map, [&](const MapChange& c) {
+    return c.new_object == id || (c.object == id && c.kind == MapChangeKind::kAdded);
   });
-  return told == changes.rend() ? std::nullopt : std::optional(*told);
+}
+
+// ... and of its going.
+std::optional<MapChange> ToldDeparture(const MapView& map, ObjectId id) {
+  return LastTold(
+      map, [&](const MapChange& c) { return c.object == id && c.kind != MapChangeKind::kAdded; });
 }
 
 // One thing at two places: what it was called at the old one counts at the new one.

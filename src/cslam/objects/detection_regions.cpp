@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -87,14 +88,23 @@ bool IsPieceOf(const SegmentedDetection& a, const SegmentedDetection& b, const D
 }
 
 // Several pieces of one thing are rather several things, in a box around them all.
+std::optional<std::size_t> OnlyPieceOf(const SegmentedDetection& whole,
+                                       const std::vector<SegmentedDetection>& detections,
+                                       const DepthView& view) {
+  std::optional<std::size_t> piece;
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    if (!IsPieceOf(detections[i], whole, view)) continue;
+    if (piece) return std::nullopt;
+    piece = i;
+  }
+  return piece;
+}
+
 std::vector<SegmentedDetection> WithoutPieces(std::vector<SegmentedDetection> detections,
                                               const DepthView& view) {
   std::vector<bool> is_piece(detections.size());
   for (const SegmentedDetection& whole : detections) {
-    const auto is_piece_of_it = [&](const auto& other) { return IsPieceOf(other, whole, view); };
-    const auto piece = std::find_if(detections.begin(), detections.end(), is_piece_of_it);
-    if (std::count_if(piece, detections.end(), is_piece_of_it) == 1)
-      is_piece[static_cast<std::size_t>(piece - detections.begin())] = true;
+    if (const auto piece = OnlyPieceOf(whole, detections, view)) is_piece[*piece] = true;
   }
   std::vector<SegmentedDetection> wholes;
   for (std::size_t i = 0; i < detections.size(); ++i) {
