@@ -10,15 +10,6 @@
 
 namespace cslam {
 
-// What keyframes saw, before an object was first seen, at the place where it stands.
-struct ViewsBefore {
-  int num_through = 0;               // it was empty
-  int num_standing = 0;              // something was there, if only nobody named it
-  bool is_between_sessions = false;  // all of those that looked through are of earlier sessions
-};
-ViewsBefore LookBack(const MapView& map, const MapObject& object, const Camera& camera,
-                     std::uint32_t session, const ExpectedViewOptions& options);
-
 // The map's list of changes, kept complete and free of contradictions while objects go and come.
 // A removal and an arrival become one: `moved` if both are alike in class, size and colour,
 // `replaced` if another thing stands there now.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/mapping/object_changes.h"
 
-#include "cslam/mapping/test_objects.h"
+#include "cslam/mapping/test_watched_room.h"
 #include "cslam/semantics/coco.h"
 
 #include <gtest/gtest.h>
@@ -13,45 +13,10 @@ namespace {
 constexpr int kBearClass = 77;
 const Stamp kNow{9'000'000'000LL};
 
-// Twenty keyframes at the origin that look at an empty room's wall, 3 m away; objects by hand.
-class ChangeListTest : public testing::Test {
+class ChangeListTest : public test::WatchedRoomTest {
  protected:
-  ChangeListTest() : map_(test::kRoomScales), list_(camera_, options_, classes_) {
-    static const auto kData = test::LookAtRoom(test::TestRoom{}, camera_, Se3(), 0).data;
-    for (std::uint32_t i = 0; i < 20; ++i) {
-      Keyframe keyframe;
-      keyframe.id = KeyframeId(i);
-      keyframe.map = MapId(0);
-      if (i > 0) keyframe.parent = KeyframeId(0);
-      keyframe.data = kData;
-      map_.AddKeyframe(std::move(keyframe));
-    }
-  }
+  ChangeListTest() : list_(camera_, options_, classes_) {}
 
-  // Seen from keyframe first to last; its front is at z - 0.25.
-  ObjectId AddObject(const Eigen::Vector3d& at, std::uint32_t first, std::uint32_t last,
-                     int class_id = kChairClass, float hue = 2.0F, double size_m = 0.5) {
-    MapObject object;
-    object.map = MapId(0);
-    object.class_id = class_id;
-    object.reference = KeyframeId(0);
-    object.state = ObjectState::kPresent;
-    object.log_odds = 3.0;
-    object.centroid = object.box.center = at;
-    object.box.size_m = Eigen::Vector3d::Constant(size_m);
-    object.colours = test::ColoursWithHue(hue);
-    object.first_keyframe = object.arrived_keyframe = KeyframeId(first);
-    object.last_keyframe = KeyframeId(last);
-    object.first_seen = Stamp{first * 1'000'000'000LL};
-    object.last_seen = Stamp{last * 1'000'000'000LL};
-    ObjectSurface surface;
-    for (int i = 0; i < 25; ++i) {
-      const Eigen::Vector3d offset(-0.2 + 0.1 * (i % 5), -0.2 + 0.1 * (i / 5), -0.25);
-      surface.samples.push_back((at + offset).cast<float>());
-    }
-    object.surface = std::make_shared<const ObjectSurface>(std::move(surface));
-    return map_.AddObject(std::move(object));
-  }
   void Leave(ObjectId id, Stamp now = kNow) {
     MapObject object = *map_.FindObject(id);
     object.state = ObjectState::kAbsent;
@@ -76,39 +41,13 @@ class ChangeListTest : public testing::Test {
   }
 
   using Kind = MapChangeKind;
-  const Camera camera_ = test::RoomCamera();
-  const MapObjectOptions options_;
   const ObjectClasses classes_{ObjectClassOptions{}};
   std::uint32_t session_ = 0;
-  Map map_;
   ChangeList list_;
 };
 
 const Eigen::Vector3d kHere(0.0, 0.0, 2.0);
 const Eigen::Vector3d kThere(0.9, 0.0, 2.2);
-
-TEST_F(ChangeListTest, LookBackCountsViewsOfAnEmptyPlace) {
-  const ObjectId chair = AddObject(kHere, 7, 9);
-  const ViewsBefore before = LookBack(map_, *map_.FindObject(chair), camera_, 0, options_.view);
-  EXPECT_EQ(before.num_through, 7);
-  EXPECT_EQ(before.num_standing, 0);
-  EXPECT_FALSE(before.is_between_sessions);
-}
-
-TEST_F(ChangeListTest, LookBackSeesThatSomethingStoodThereBefore) {
-  const ObjectId poster = AddObject({0.0, 0.0, 3.25}, 7, 9);  // its front is the wall
-  const ViewsBefore before = LookBack(map_, *map_.FindObject(poster), camera_, 0, options_.view);
-  EXPECT_EQ(before.num_through, 0);
-  EXPECT_EQ(before.num_standing, 7);
-}
-
-TEST_F(ChangeListTest, LookBackTellsSessionsApart) {
-  map_.StartSession();  // begins with keyframe 20
-  const ObjectId chair = AddObject(kHere, 20, 21);
-  const ViewsBefore before = LookBack(map_, *map_.FindObject(chair), camera_, 1, options_.view);
-  EXPECT_EQ(before.num_through, 20);
-  EXPECT_TRUE(before.is_between_sessions);
-}
 
 TEST_F(ChangeListTest, TellsASecondComingThoughTheFirstWasTold) {
   const ObjectId chair = AddObject(kHere, 7, 9);

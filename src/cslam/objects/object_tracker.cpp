@@ -3,7 +3,6 @@
 #include "cslam/objects/object_tracker.h"
 
 #include "cslam/objects/detection_regions.h"
-#include "cslam/objects/object_classes.h"
 #include "cslam/objects/region_outline.h"
 #include "cslam/objects/second_names.h"
 
@@ -15,10 +14,7 @@
 namespace cslam {
 
 ObjectTracker::ObjectTracker(const Camera& camera, const ObjectTrackerOptions& options)
-    : camera_(camera),
-      views_(camera),
-      options_(options),
-      fixed_(ClassesIn(options.fixed, "tracking.objects.fixed")) {
+    : camera_(camera), views_(camera), options_(options), uses_(camera, options) {
   RuleOf(options.labels);  // throws for an unknown one
 }
 
@@ -295,35 +291,6 @@ void ObjectTracker::Forget() {
   });
 }
 
-// What lies flat on the floor over a metre is floor, a rug taken for a bed; what is flat on a wall
-// is wall. Without such points little near the camera may be left, and nothing holds its position.
-bool ObjectTracker::IsRoom(const Object& object) const {
-  if (fixed_.contains(object.class_id)) return true;
-  if (!object.is_flat || object.is_person() || object.class_id < 0) return false;
-  if (object.is_on_wall) return !options_.map_flat_on_walls;
-  const double side_px = std::max(object.box.width(), object.box.height());
-  return side_px * static_cast<double>(object.region.median_m) / camera_.fx > options_.max_flat_m;
-}
-
-// What the camera sees little beside seems to move whenever the camera does.
-bool ObjectTracker::FillsThePicture(const Object& object) const {
-  const std::size_t num_pixels = object.region.mask.total();
-  return num_pixels > 0 &&
-         object.region.num_pixels > options_.max_moving_share * static_cast<double>(num_pixels);
-}
-
-KeypointLabel ObjectTracker::LabelOf(const Object& object) const {
-  if (object.is_person() || object.class_id < 0) return KeypointLabel::kDynamic;
-  if (IsRoom(object)) return KeypointLabel::kStatic;
-  if (!options_.label_movable) return KeypointLabel::kStatic;
-  if (!options_.filter_motion) return KeypointLabel::kDynamic;
-  const ObjectMotion motion = object.filter ? object.filter->motion() : ObjectMotion::kUnknown;
-  const bool may_use = motion == ObjectMotion::kStatic ||
-                       (motion == ObjectMotion::kUnknown && !options_.hold_back_new) ||
-                       FillsThePicture(object);
-  return may_use ? KeypointLabel::kMovable : KeypointLabel::kDynamic;
-}
-
 std::vector<KeypointSemantics> ObjectTracker::Label(std::span<const Keypoint> keypoints) const {
   std::vector<LabelledThing> things;
   for (const Object& object : objects_) {
@@ -425,7 +392,7 @@ std::vector<ObjectSighting> ObjectTracker::Sightings() const {
   for (const Object& object : objects_) {
     if (object.class_id < 0 || object.is_person() || object.region.empty()) continue;
     if (object.filter && object.filter->motion() == ObjectMotion::kMoving) continue;
-    if (IsRoom(object)) continue;
+    if (uses_.IsRoom(object)) continue;
     sightings.push_back({.track = object.id,
                          .class_id = object.class_id,
                          .score = object.score * (object.is_flat ? options_.flat_score : 1.0),

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "cslam/objects/best_first_matching.h"
+#include "cslam/objects/followed_object.h"
 #include "cslam/objects/object_sighting.h"
 #include "cslam/objects/object_tracker_options.h"
+#include "cslam/objects/object_uses.h"
 #include "cslam/semantics/detection.h"
 #include "cslam/util/id.h"
 #include "cslam/util/stamp.h"
@@ -12,7 +14,6 @@
 #include <deque>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <vector>
 
@@ -75,24 +76,7 @@ class ObjectTracker {
   void Clear();
 
  private:
-  struct Object {
-    TrackId id;
-    int class_id = -1;
-    double score = 0.0;
-    Box box;
-    DepthRegion region;
-    std::optional<ObjectFilter> filter;  // none before its first depth
-    Stamp first_detected;
-    Stamp detected;                  // the newest frame a detector saw it in
-    Stamp filtered;                  // the newest frame its filter took in
-    double reference_area_m2 = 0.0;  // of the region as detected
-    bool is_detected_now = false;
-    bool is_flat = false;  // see DepthRegion
-    bool is_on_wall = false;
-    std::optional<Eigen::Vector3d> found_at;  // world; of a nameless thing
-    bool has_travelled = false;               // a nameless thing that was seen to go a long way
-    bool is_person() const { return class_id == kPersonClass; }
-  };
+  using Object = FollowedObject;
   struct PastObject {
     TrackId id;
     Box box;
@@ -123,15 +107,13 @@ class ObjectTracker {
   void AddUnknown(const DepthRegion& region, const Se3& T_world_camera);
   const Frame* SettledBefore(double age_s) const;
   double TurnRateDps(const Se3& T_world_camera) const;
-  bool IsRoom(const Object& object) const;
-  bool FillsThePicture(const Object& object) const;
-  KeypointLabel LabelOf(const Object& object) const;
+  KeypointLabel LabelOf(const Object& object) const { return uses_.LabelOf(object); }
   double AreaM2(const DepthRegion& region) const;
 
   const Camera camera_;
   const DepthViewMaker views_;
   const ObjectTrackerOptions options_;
-  const std::set<int> fixed_;    // classes
+  const ObjectUses uses_;
   std::vector<Object> objects_;  // by id
   std::deque<Frame> history_;    // settled frames, oldest first
   Frame now_;
