@@ -341,7 +341,7 @@ void Describe(OptionList& list, VerificationOptions& o) {
 PlaceSensor MakePlaceSensor(const Camera& camera, const OrbOptions& orb,
                             const DepthOptions& depth) {
   return {camera, UndistortedBounds(camera), depth.baseline_m,
-          MeasurementModel(LevelScales(orb), depth.disparity_sigma_px)};
+          MeasurementModel(LevelScales(orb), depth.place_disparity_sigma_px)};
 }
 
 PlaceVerification VerifyPlace(const FrameFeatures& features, const MapView& map,

@@ -78,7 +78,11 @@ void Describe(OptionList& list, DepthOptions& o) {
   list.Add("near_baselines", o.near_baselines, {5.0, 500.0}, "baselines",
            "Points nearer than this are made from one view, farther ones by triangulation.");
   list.Add("disparity_sigma", o.disparity_sigma_px, {0.01, 100.0}, "px",
-           "Standard deviation of a depth reading, as disparity, at pyramid level 0.");
+           "Standard deviation of a depth reading, as disparity, at pyramid level 0. Corners of "
+           "blurred pictures err by more than depth does, and where they lie on one wall they hold "
+           "the camera badly.");
+  list.Add("place_disparity_sigma", o.place_disparity_sigma_px, {0.01, 100.0}, "px",
+           "The same where a view is compared with a place of the map: its points have drifted.");
   list.Add("edge_radius", o.edge_radius_px, {0, 50}, "px",
            "A reading is dropped when the surface breaks off within this distance; 0: never.");
   list.Add("max_edge_ratio", o.max_edge_ratio, {0.001, 10.0}, "",

@@ -93,9 +93,10 @@ struct FrameFeatures {
 
 // How depth readings become measurements.
 struct DepthOptions {
-  double baseline_m = 0.08;         // of the virtual stereo pair that depth is expressed in
-  double near_baselines = 40.0;     // up to this many baselines one view makes a point
-  double disparity_sigma_px = 1.0;  // of a reading's disparity, at pyramid level 0
+  double baseline_m = 0.08;               // of the virtual stereo pair that depth is expressed in
+  double near_baselines = 40.0;           // up to this many baselines one view makes a point
+  double disparity_sigma_px = 0.3;        // of a reading's disparity, at pyramid level 0
+  double place_disparity_sigma_px = 1.0;  // the same where places are compared
   int edge_radius_px = 4;
   double max_edge_ratio = 0.03;
   double min_depth_m = 0.1;   // readings below are dropped
