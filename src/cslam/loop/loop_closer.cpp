@@ -101,7 +101,9 @@ LoopOutcome LoopCloser::Process(KeyframeId keyframe, const MapView& map, const P
   };
   const auto descriptors = SelectDescriptors(query->data->features, PlaceKeypoints(map, *query));
   const auto candidates = FindPlaces(map, index, descriptors, is_excluded, options_.candidates);
-  const PointFilter may_use = [&](const MapPoint& p) { return !IsSeenFromNear(p, is_near); };
+  const PointFilter may_use = [&](const MapPoint& p) {
+    return !IsSeenFromNear(p, is_near) && (options_.use_objects || !p.object.valid());
+  };
   for (const PlaceCandidate& candidate : candidates)
     outcome.records.push_back(Examine(*query, candidate, map, may_use));
 

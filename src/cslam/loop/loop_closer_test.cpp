@@ -178,6 +178,26 @@ TEST_F(LoopCloserTest, OnlyFusesWhereThereIsNoDrift) {
   EXPECT_LT(test::PositionError(mapper.map(), mapper.truth()), 1e-9);
 }
 
+TEST_F(LoopCloserTest, LetsNothingProveALoopThatMayHaveBeenMoved) {
+  MapObject furniture;
+  furniture.map = MapId(0);
+  furniture.reference = KeyframeId(0);
+  furniture.state = ObjectState::kPresent;
+  furniture.is_active = true;
+  const ObjectId object = mapper_.map().AddObject(std::move(furniture));
+  for (std::uint32_t first = 0; first < 4; ++first) {
+    for (const PointId point : mapper_.map().FindKeyframe(KeyframeId(first))->points) {
+      if (point.valid()) mapper_.map().AssignPoint(point, object);
+    }
+  }
+  EXPECT_FALSE(ProcessNewest(closer_, mapper_).correction.has_value());
+  LoopOptions options;
+  options.use_objects = true;
+  LoopCloser trusting{RoomSensor(), options};
+  const LoopOutcome outcome = ProcessNewest(trusting, mapper_);
+  EXPECT_TRUE(outcome.correction.has_value()) << Reasons(outcome);
+}
+
 TEST_F(LoopCloserTest, RefusesALookAlikePlaceThatMeasuredDepthContradicts) {
   // Seen from the second visit on, and covering a good part of the view.
   auto mapper = test::DriftingCircle(test::MakeRoom(kRoomPoints, 1), kTurn, 0, SmallDrift());

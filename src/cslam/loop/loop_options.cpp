@@ -67,6 +67,9 @@ void DescribeCandidates(OptionList& list, LoopOptions& o) {
 
 void DescribeEvidence(OptionList& list, LoopOptions& o) {
   list.Group("verification", o.verification);
+  list.Add("use_objects", o.use_objects,
+           "Let points of the map's objects prove a loop, too. Nobody knows where they went while "
+           "nobody looked; off: the room has to prove it.");
   list.Add("confirmations", o.confirmations, {1, 100}, "keyframes",
            "Keyframes that have to find the same place and agree where it is, within one map.");
   list.Add("merge_confirmations", o.merge_confirmations, {1, 100}, "keyframes",

@@ -58,6 +58,7 @@ struct LoopOptions {
   // Stricter than for finding a frame: a wrong pose is gone with the next frame, a wrong loop
   // stays.
   VerificationOptions verification{.min_ransac_inliers = 15, .min_inliers = 40, .min_cells = 6};
+  bool use_objects = false;  // let things prove a loop, which may have been moved
   int confirmations = 2;
   int merge_confirmations = 3;
   int confirming_neighbours = 5;
