@@ -69,6 +69,20 @@ class LoopCloserTest : public testing::Test {
         T_true, mapper_.map().FindKeyframe(last)->T_world_camera * T_last_next * SmallDrift(),
         last);
   }
+  // Come round a little farther, with a thing in the room that was not there the first time.
+  static test::RoomMapper SecondVisitWith(const test::TestBox& thing) {
+    auto mapper = test::DriftingCircle(test::MakeRoom(kRoomPoints, 1), kTurn, 0, SmallDrift());
+    mapper.room().things.push_back(thing);
+    KeyframeId last(kTurn - 1);
+    for (int i = 0; i < 3; ++i) {
+      const Se3 T_true = test::CirclePose(static_cast<double>(kTurn + i) / kTurn);
+      last = mapper.Add(T_true,
+                        mapper.map().FindKeyframe(last)->T_world_camera *
+                            (mapper.truth()[last.index()].Inverse() * T_true) * SmallDrift(),
+                        last);
+    }
+    return mapper;
+  }
   double Error() { return test::PositionError(mapper_.map(), mapper_.truth()); }
 
   test::RoomMapper mapper_;
@@ -199,17 +213,7 @@ TEST_F(LoopCloserTest, LetsNothingProveALoopThatMayHaveBeenMoved) {
 }
 
 TEST_F(LoopCloserTest, RefusesALookAlikePlaceThatMeasuredDepthContradicts) {
-  // Seen from the second visit on, and covering a good part of the view.
-  auto mapper = test::DriftingCircle(test::MakeRoom(kRoomPoints, 1), kTurn, 0, SmallDrift());
-  mapper.room().things.push_back({{-0.2, -1.3, 1.7}, {3.0, 1.3, 2.2}});
-  KeyframeId last(kTurn - 1);
-  for (int i = 0; i < 3; ++i) {
-    const Se3 T_true = test::CirclePose(static_cast<double>(kTurn + i) / kTurn);
-    last = mapper.Add(T_true,
-                      mapper.map().FindKeyframe(last)->T_world_camera *
-                          (mapper.truth()[last.index()].Inverse() * T_true) * SmallDrift(),
-                      last);
-  }
+  auto mapper = SecondVisitWith({{-0.2, -1.3, 1.7}, {3.0, 1.3, 2.2}});
   const LoopOutcome outcome = ProcessNewest(closer_, mapper);
   EXPECT_FALSE(outcome.correction.has_value());
   const bool is_depth =
@@ -218,6 +222,19 @@ TEST_F(LoopCloserTest, RefusesALookAlikePlaceThatMeasuredDepthContradicts) {
                r.reason.find("depth contradicts") != std::string::npos;
       });
   EXPECT_TRUE(is_depth) << Reasons(outcome);
+}
+
+TEST_F(LoopCloserTest, RefusesALoopThatOneArmchairContradicts) {
+  auto mapper = SecondVisitWith({{0.2, -0.2, 2.0}, {0.7, 0.5, 2.4}});
+  const LoopOutcome refused = ProcessNewest(closer_, mapper);
+  EXPECT_FALSE(refused.correction.has_value());
+  LoopOptions options;
+  options.depth_check.max_contradicted = 0.2;
+  LoopCloser trusting{RoomSensor(), options};
+  const LoopOutcome closed = ProcessNewest(trusting, mapper);
+  const LoopRecord* record = FindVerdict(closed, LoopVerdict::kClosed);
+  ASSERT_NE(record, nullptr) << Reasons(closed);
+  EXPECT_GT(record->evidence.depth_contradicted, 0.05);
 }
 
 TEST_F(LoopCloserTest, RefusesATwinPlaceMetresAway) {
