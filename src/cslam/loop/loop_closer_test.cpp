@@ -61,26 +61,19 @@ class LoopCloserTest : public testing::Test {
       : mapper_(test::DriftingCircle(test::MakeRoom(kRoomPoints, 1), kTurn, 1, SmallDrift())) {}
 
   // The next keyframe of the circle, with the same drift.
-  KeyframeId AddNext() {
-    const auto last = mapper_.map().Keyframes().back();
+  static KeyframeId AddNext(test::RoomMapper& mapper) {
+    const auto last = mapper.map().Keyframes().back();
     const Se3 T_true = test::CirclePose(static_cast<double>(last.value() + 1) / kTurn);
-    const Se3 T_last_next = mapper_.truth()[last.index()].Inverse() * T_true;
-    return mapper_.Add(
-        T_true, mapper_.map().FindKeyframe(last)->T_world_camera * T_last_next * SmallDrift(),
-        last);
+    const Se3 T_last_next = mapper.truth()[last.index()].Inverse() * T_true;
+    return mapper.Add(
+        T_true, mapper.map().FindKeyframe(last)->T_world_camera * T_last_next * SmallDrift(), last);
   }
   // Come round a little farther, with a thing in the room that was not there the first time.
   static test::RoomMapper SecondVisitWith(const test::TestBox& thing) {
     auto mapper = test::DriftingCircle(test::MakeRoom(kRoomPoints, 1), kTurn, 0, SmallDrift());
     mapper.room().things.push_back(thing);
-    KeyframeId last(kTurn - 1);
-    for (int i = 0; i < 3; ++i) {
-      const Se3 T_true = test::CirclePose(static_cast<double>(kTurn + i) / kTurn);
-      last = mapper.Add(T_true,
-                        mapper.map().FindKeyframe(last)->T_world_camera *
-                            (mapper.truth()[last.index()].Inverse() * T_true) * SmallDrift(),
-                        last);
-    }
+    for (int i = 0; i < 3; ++i)
+      AddNext(mapper);
     return mapper;
   }
   double Error() { return test::PositionError(mapper_.map(), mapper_.truth()); }
@@ -137,8 +130,8 @@ TEST_F(LoopCloserTest, RecordsWhyALoopWasClosed) {
 TEST_F(LoopCloserTest, CorrectsAMapThatHasGrownSince) {
   const LoopOutcome outcome = ProcessNewest(closer_, mapper_);
   ASSERT_TRUE(outcome.correction.has_value()) << Reasons(outcome);
-  AddNext();
-  AddNext();
+  AddNext(mapper_);
+  AddNext(mapper_);
   const double before = Error();
   const CorrectionReport report = ApplyCorrection(mapper_.map(), *outcome.correction);
   EXPECT_EQ(report.keyframes_carried, 2);
@@ -177,7 +170,7 @@ TEST_F(LoopCloserTest, WaitsForLaterKeyframesWhenNeighboursAreNotAsked) {
     const LoopRecord* record = FindVerdict(outcome, LoopVerdict::kPending);
     ASSERT_NE(record, nullptr) << Reasons(outcome);
     EXPECT_EQ(record->evidence.num_confirmations, i);
-    AddNext();
+    AddNext(mapper_);
   }
   EXPECT_TRUE(ProcessNewest(closer, mapper_).correction.has_value());
 }
