@@ -25,7 +25,7 @@ constexpr double kNearM = 1.3;
 constexpr double kFarM = 1.65;
 constexpr double kHalfArcDeg = 36.0;
 const Eigen::Vector2d kBeforeChairM(0.0, -1.5);
-constexpr double kGlanceM = 1.5;  // from how far the short form looks
+constexpr double kGlanceM = 1.3;  // from how far the short form looks
 
 // Where one stands to look at the chair from an angle to the right of its front (deg).
 Eigen::Vector2d Viewpoint(const Eigen::Vector2d& chair_m, double to_right_deg, double distance_m) {
@@ -78,22 +78,22 @@ RobotRide LongRide(std::uint64_t seed) {
   return plan.Finish(kOneChairFigures.duration_s);
 }
 
-// From the left to the right, a long way round, and from the right to the left.
+// Both times from the right to the left, so that there is a long way between all equal views.
 RobotRide ShortRide(std::uint64_t seed) {
-  RobotPlan plan(Viewpoint(kFirstM, -kHalfArcDeg, kGlanceM), 90.0 - kHalfArcDeg,
-                 {.speed_mps = 0.48, .turn_dps = 58.0, .ramp_s = 0.5, .place_noise_m = 0.02}, seed);
+  RobotPlan plan(Viewpoint(kFirstM, kHalfArcDeg, kGlanceM), 90.0 + kHalfArcDeg,
+                 {.speed_mps = 0.49, .turn_dps = 58.0, .ramp_s = 0.5, .place_noise_m = 0.02}, seed);
   plan.Stand(1.2);
-  plan.Orbit(kFirstM, 2.0 * kHalfArcDeg, kGlanceM);
+  plan.Orbit(kFirstM, -2.0 * kHalfArcDeg, kGlanceM);
   plan.Stand(0.6);
-  plan.RideAndFace({{3.4, 3.6}, {2.2, 2.8}, {2.6, 1.7}}, {4.3, 0.0});
+  plan.RideAndFace({{2.9, 3.5}, {1.8, 3.0}, {2.1, 1.7}}, {4.3, 0.0});
   plan.StandForChange(0.8);
-  plan.RideAndFace({{4.6, 1.5}, {6.2, 1.9}, {6.5, 3.2}, Viewpoint(kSecondM, kHalfArcDeg, kGlanceM)},
+  plan.RideAndFace({{4.6, 1.4}, {6.5, 1.8}, {6.8, 3.3}, Viewpoint(kSecondM, kHalfArcDeg, kGlanceM)},
                    kSecondM);
   plan.Stand(0.6);
   plan.Orbit(kSecondM, -2.0 * kHalfArcDeg, kGlanceM);
   plan.Stand(1.2);
-  plan.RideAndFace({{4.3, 3.2}}, 0.5 * (kFirstM + kSecondM));
-  plan.Stand(2.5);
+  plan.RideAndFace({{4.1, 3.8}}, 0.5 * (kFirstM + kSecondM));
+  plan.Stand(2.0);
   return plan.Finish(kOneChairFigures.short_duration_s);
 }
 

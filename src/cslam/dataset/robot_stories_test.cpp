@@ -277,15 +277,15 @@ TEST(OneChairStory, LooksAtTheChairFromThreeSidesTheSameWayInBothPlaces) {
   }
 }
 
-// Most way (m) from a view of a thing in its old place to the same view of it in its new one.
-double LongestWayBetweenEqualViews(const CameraMotion& motion, const SilentChange& change) {
+// The ways (m) from the views of a thing in its old place to the same views of it in its new one.
+std::vector<double> WaysBetweenEqualViews(const CameraMotion& motion, const SilentChange& change) {
   struct View {
     Se3 T_thing_camera;
     double way_m;
   };
   std::vector<View> before;
   double way_m = 0.0;
-  double longest_m = 0.0;
+  std::vector<double> ways_m;
   Se3 last = motion.T_world_camera(0.0);
   for (double t = 0.0; t < motion.duration_s; t += 0.1) {
     const Se3 T_world_camera = motion.T_world_camera(t);
@@ -300,11 +300,10 @@ double LongestWayBetweenEqualViews(const CameraMotion& motion, const SilentChang
     }
     for (const View& view : before) {
       const PoseDifference apart = Difference(view.T_thing_camera, T_thing_camera);
-      if (apart.distance_m < 0.1 && apart.angle_rad < 0.05)
-        longest_m = std::max(longest_m, way_m - view.way_m);
+      if (apart.distance_m < 0.1 && apart.angle_rad < 0.05) ways_m.push_back(way_m - view.way_m);
     }
   }
-  return longest_m;
+  return ways_m;
 }
 
 TEST(OneChairStory, LeavesSoLongAWayBetweenEqualViewsThatDriftMightExplainTheMove) {
@@ -316,8 +315,12 @@ TEST(OneChairStory, LeavesSoLongAWayBetweenEqualViewsThatDriftMightExplainTheMov
       const Story story = Make("onechair", seed, is_short);
       const SilentChange chair = SilentChanges(story.world).front();
       const double moved_m = (chair.to->translation - chair.from->translation).norm();
-      const double way_m = LongestWayBetweenEqualViews(story.camera, chair);
-      EXPECT_GT(kMaxDriftM + kMaxDriftShare * way_m, moved_m + 0.03) << way_m << " m";
+      const std::vector<double> ways_m = WaysBetweenEqualViews(story.camera, chair);
+      const auto num_tempting = std::ranges::count_if(ways_m, [&](double way_m) {
+        return kMaxDriftM + kMaxDriftShare * way_m > moved_m + 0.03;
+      });
+      const double share = static_cast<double>(num_tempting) / static_cast<double>(ways_m.size());
+      EXPECT_GT(share, is_short ? 0.7 : 0.1) << ways_m.size() << " equal views, seed " << seed;
     }
   }
 }
