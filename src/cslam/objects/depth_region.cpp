@@ -3,6 +3,7 @@
 #include "cslam/objects/depth_region.h"
 
 #include "cslam/objects/box_background.h"
+#include "cslam/objects/box_occluders.h"
 #include "cslam/util/options.h"
 #include "cslam/util/quantile.h"
 #include "cslam/vision/depth_thumbnail.h"
@@ -205,6 +206,7 @@ void Describe(OptionList& list, RegionOptions& o) {
   list.Add("min_support", o.min_support, {0.0, 1.0}, "",
            "Share of a carried region whose depth must agree for it to be kept.");
   list.Group("background", o.background);
+  list.Group("occluder", o.occluder);
 }
 
 DepthRegion GrowRegion(const DepthView& view, const cv::Mat& seeds, const cv::Mat& allowed,
@@ -271,6 +273,12 @@ cv::Mat PixelsAround(const DepthView& view, const cv::Rect& rect, double depth_m
   return pixels;
 }
 
+// Masks of one size, or empty.
+cv::Mat Either(const cv::Mat& a, const cv::Mat& b) {
+  if (a.empty()) return b;
+  return b.empty() ? a : cv::Mat(a | b);
+}
+
 // A thing is about as deep as it is large: how far it may reach from its main depth.
 double ReachOfBox(const DepthView& view, const Box& box, double main_m, bool is_person,
                   const RegionOptions& options) {
@@ -289,17 +297,18 @@ DepthRegion SegmentBox(const DepthView& view, const Box& box, bool is_person, co
   const cv::Rect rect = ThumbnailRect(view, box, 0.0);
   if (rect.empty()) return {};
   BoxBackground around;
-  if (!is_person) around = FindBoxBackground(view, rect, taken, options.background);
-  const cv::Mat& background = around.mask;
-  const cv::Mat excluded = taken.empty()        ? background
-                           : background.empty() ? taken
-                                                : cv::Mat(taken | background);
+  cv::Mat excluded = taken;
+  if (!is_person) {
+    around = FindBoxBackground(view, rect, taken, options.background);
+    excluded = Either(taken, Either(around.mask, FindBoxOccluders(view, rect, options.step_ratio,
+                                                                  options.occluder)));
+  }
   const double band = BandOf(is_person, options);
   const double main_m = MainDepth(view, rect, excluded, band);
   if (main_m <= 0.0) return {};
   const double reach_m = ReachOfBox(view, box, main_m, is_person, options);
   DepthRegion region;
-  if (!background.empty()) {
+  if (!around.mask.empty()) {
     // Without floor and wall all that is left is the thing, in one piece or not: its back shows
     // on both sides of what sits on it.
     cv::Mat mask = PixelsAround(view, rect, main_m, reach_m, excluded);

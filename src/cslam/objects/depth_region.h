@@ -72,6 +72,13 @@ struct BoxBackgroundOptions {
 };
 void Describe(OptionList& list, BoxBackgroundOptions& options);
 
+// What hides part of the thing goes on beyond the box, too: the arm of the chair on which it sits.
+struct BoxOccluderOptions {
+  bool enabled = true;
+  double max_share = 0.75;  // of the box's width that it covers; more, and it is the thing itself
+};
+void Describe(OptionList& list, BoxOccluderOptions& options);
+
 struct RegionOptions {
   double person_band_m = 0.33;    // surface depth of a person around the box's main depth
   double movable_band_m = 0.25;   // the same of other things
@@ -83,6 +90,7 @@ struct RegionOptions {
   double carry_speed_mps = 1.5;
   double min_support = 0.25;
   BoxBackgroundOptions background;  // of things other than people
+  BoxOccluderOptions occluder;      // the same
 };
 void Describe(OptionList& list, RegionOptions& options);
 

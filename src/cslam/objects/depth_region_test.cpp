@@ -36,6 +36,18 @@ TEST(SegmentBox, LooksPastATableThatCoversThePersonsLegs) {
   EXPECT_NEAR(region.median_m, 2.0F, 0.01F);
 }
 
+TEST(SegmentBox, TakesTheBearAndNotTheArmOfTheChairBeforeIt) {
+  cv::Mat depth = Wall(1.9);
+  const Box bear = DrawPanel(depth, 0.0, 0.0, 1.5, 0.30, 0.40);
+  DrawPanel(depth, 0.20, 0.0, 1.2, 0.44, 0.29);
+  const DepthView view = ViewOf(depth);
+  RegionOptions options;
+  options.background.enabled = false;  // real arms are round, not planes
+  EXPECT_NEAR(SegmentBox(view, bear, false, {}, options).median_m, 1.5F, 0.01F);
+  options.occluder.enabled = false;
+  EXPECT_NEAR(SegmentBox(view, bear, false, {}, options).median_m, 1.2F, 0.01F);
+}
+
 TEST(SegmentBox, LeavesOutWhatIsExcluded) {
   cv::Mat depth = Wall(4.0);
   const Box person = DrawPanel(depth, 0.0, 0.0, 2.0, 0.6, 1.6);

@@ -179,6 +179,15 @@ TEST_F(ObjectWatchTest, HoldsMissingDetectionsAgainstCandidatesOnly) {
   EXPECT_EQ(Taken().num_missed, 1);
 }
 
+TEST_F(ObjectWatchTest, CountsAMissWhereWhatStandsThereIsCalledSomethingElse) {
+  constexpr int kTeddyBearClass = 77;
+  for (int i = 0; i < 3; ++i)
+    Look(1.0 + i, WithPanel(kDepthM), {SightingAt(kDepthM, kTeddyBearClass, At(1.0 + i))});
+  const ObjectEvidence evidence = Taken();
+  EXPECT_EQ(evidence.num_missed, 3);
+  EXPECT_EQ(evidence.num_through, 0);
+}
+
 TEST_F(ObjectWatchTest, HoldsASightingForOneObjectAlone) {
   MapObject wall = *map_.FindObject(kChair);  // a piece beside it that once passed for a chair
   ObjectSurface surface;
