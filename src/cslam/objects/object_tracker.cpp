@@ -393,8 +393,6 @@ std::vector<ObjectSighting> ObjectTracker::Sightings() const {
     if (object.class_id < 0 || object.is_person() || object.region.empty()) continue;
     if (object.filter && object.filter->motion() == ObjectMotion::kMoving) continue;
     if (uses_.IsRoom(object)) continue;
-    const double known_s = SecondsBetween(object.detected, object.first_detected);
-    if (known_s < options_.settle_at_edge_s && IsClipped(object.region)) continue;
     sightings.push_back({.track = object.id,
                          .class_id = object.class_id,
                          .score = object.score * (object.is_flat ? options_.flat_score : 1.0),

@@ -18,9 +18,6 @@ void Describe(OptionList& list, ObjectTrackerOptions& o) {
            "Use movable things again once their filter finds them static.");
   list.Add("min_iou", o.min_iou, {0.01, 1.0}, "",
            "Overlap of boxes from which on a detection is taken for a known object.");
-  list.Add("settle_at_edge", o.settle_at_edge_s, {0.0, 60.0}, "s",
-           "What the edge of the picture cuts off says nothing about the map of objects before it "
-           "has been detected for so long: the first bit of an umbrella passes for a chair.");
   list.Add("second_name_iou", o.second_name_iou, {0.01, 1.0}, "",
            "Overlap of two boxes of different classes from which on they are one thing, called by "
            "two names; the better one stays.");

@@ -14,13 +14,11 @@ namespace cslam {
 class OptionList;
 
 struct ObjectTrackerOptions {
-  bool enabled = true;         // off: every keypoint counts as background
-  bool label_movable = true;   // hold back the keypoints of things that may move
-  bool hold_back_new = false;  // until they are known to rest, as in the paper
-  bool filter_motion = true;   // trust movable things again once the filter finds them static
-  double min_iou = 0.3;        // for a detection to be a known object
-  double settle_at_edge_s =
-      0.5;                       // of what is cut off by the picture's edge: no sighting until then
+  bool enabled = true;           // off: every keypoint counts as background
+  bool label_movable = true;     // hold back the keypoints of things that may move
+  bool hold_back_new = false;    // until they are known to rest, as in the paper
+  bool filter_motion = true;     // trust movable things again once the filter finds them static
+  double min_iou = 0.3;          // for a detection to be a known object
   double second_name_iou = 0.7;  // of two boxes: one thing called by two names
   double min_inside = 0.7;       // or for its region to be a piece of the detection's
   double bridge_s = 1.0;         // how long an undetected object is carried on

@@ -174,18 +174,6 @@ TEST_F(ObjectTrackerTest, TellsNoSightingsOfAChairWhileItIsCarried) {
   }
 }
 
-TEST_F(ObjectTrackerTest, TellsOfWhatTheEdgeCutsOffOnlyOnceItHasBeenDetectedForAWhile) {
-  cv::Mat depth = Wall(4.0);
-  const Box cut_off = DrawPanel(depth, -1.2, 0.0, 2.0, 0.5, 0.8);
-  const Box whole = DrawPanel(depth, 0.5, 0.0, 2.0, 0.5, 0.8);
-  ASSERT_EQ(cut_off.x_min, 0.0);
-  for (int i = 0; i < 30; ++i) {
-    PlayDetected(depth, {{kChair, cut_off}, {kChair, whole}});
-    const bool has_settled = SecondsBetween(StampOf(i), StampOf(0)) >= options_.settle_at_edge_s;
-    EXPECT_EQ(tracker_->Sightings().size(), has_settled ? 2U : 1U) << "frame " << i;
-  }
-}
-
 TEST_F(ObjectTrackerTest, KeepsOneTrackOfAThingThatIsSeenInPieces) {
   cv::Mat depth = Wall(4.0);
   const Box whole = DrawPanel(depth, 0.0, 0.0, 2.0, 0.8, 0.8);
