@@ -45,7 +45,7 @@ void AssignPoints(Map& map, KeyframeId keyframe, std::span<const PointId> points
 
 void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal,
                 const ExpectedViewOptions& options) {
-  constexpr double kMarginM = 0.05;
+  constexpr double kMarginM = 0.3;  // of the thing there may have been more than ever had its name
   const MapObject& object = *map.FindObject(id);
   const DepthView& view = proposal.objects.view;
   if (view.empty()) return;
