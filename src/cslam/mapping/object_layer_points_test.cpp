@@ -57,6 +57,27 @@ TEST_F(ObjectLayerTest, SweepsUnnamedPointsFromAPlaceThatIsLookedThrough) {
   EXPECT_TRUE(IsUsable(*map_.FindPoint(PointId(1))));
 }
 
+TEST_F(ObjectLayerTest, SweepsWhatStoodRightBesideThePartThatWasKnown) {
+  for (const auto& [beside_m, is_swept] : {std::pair{0.2, true}, {0.6, false}}) {
+    has_points_ = true;
+    room_.things = {Chair(kPlace)};
+    const ObjectId chair = Settle(front_).back();
+    Insert(front_, std::vector{Seen(chair, 20)});
+    const PointId point(static_cast<std::uint32_t>(map_.num_point_ids() - 2));
+    MapObject known = *map_.FindObject(chair);
+    const Eigen::Vector3d p_object =
+        map_.T_world_object(known).Inverse() * map_.FindPoint(point)->p_world;
+    known.box.rotation = Eigen::Quaterniond::Identity();
+    known.box.center = p_object;
+    known.box.center.x() += 0.5 * known.box.size_m.x() + beside_m;
+    map_.SetObject(std::move(known));
+    has_points_ = false;
+    room_.things.clear();
+    Insert(front_, std::vector{Through(chair, 12)});
+    EXPECT_EQ(map_.FindPoint(point)->object.valid(), is_swept) << beside_m;
+  }
+}
+
 // The clock may have jumped in between, or the camera have looked elsewhere.
 TEST_F(ObjectLayerTest, SweepsAPlaceWheneverItWasLookedThroughFirst) {
   for (const std::int64_t passed_s : {3600, -3600}) {
