@@ -51,9 +51,7 @@ PlaceVerdict Judge(const ExpectedView& view, const ExpectedViewOptions& options)
       view.num_through + view.num_taken >= options.min_through_share * visible) {
     return PlaceVerdict::kLookedThrough;
   }
-  const double min_standing = options.min_standing_share * visible;
-  if (view.num_standing >= min_standing) return PlaceVerdict::kStanding;
-  if (view.num_standing + view.num_taken >= min_standing) return PlaceVerdict::kTaken;
+  if (view.num_standing >= options.min_standing_share * visible) return PlaceVerdict::kStanding;
   return PlaceVerdict::kUnobserved;
 }
 

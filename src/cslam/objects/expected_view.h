@@ -49,7 +49,6 @@ struct DepthSampler {
 enum class PlaceVerdict : std::uint8_t {
   kUnobserved,     // out of view, hidden, too far, without depth, or neither clearly
   kStanding,       // a surface is where it is expected
-  kTaken,          // ... but for the most part it is that of another thing
   kLookedThrough,  // one sees what is behind it
 };
 
