@@ -11,13 +11,9 @@ namespace cslam {
 namespace {
 
 using test::DrawPanel;
+using test::ThumbnailOf;
 using test::ViewOf;
 using test::Wall;
-
-cv::Rect ThumbnailOf(const Box& box, int step) {
-  return {static_cast<int>(box.x_min) / step, static_cast<int>(box.y_min) / step,
-          static_cast<int>(box.width()) / step, static_cast<int>(box.height()) / step};
-}
 
 // Floor 1.2 m below a level camera, and a wall at 4 m.
 cv::Mat FloorAndWall() {

@@ -11,15 +11,11 @@ namespace cslam {
 namespace {
 
 using test::DrawPanel;
+using test::ThumbnailOf;
 using test::ViewOf;
 using test::Wall;
 
 constexpr double kStepRatio = 0.03;
-
-cv::Rect ThumbnailOf(const Box& box, int step) {
-  return {static_cast<int>(box.x_min) / step, static_cast<int>(box.y_min) / step,
-          static_cast<int>(box.width()) / step, static_cast<int>(box.height()) / step};
-}
 
 // A bear 1.5 m away before the back of its chair, and the chair's arm before its right third.
 struct BearOnChair {

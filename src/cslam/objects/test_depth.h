@@ -51,6 +51,11 @@ inline DepthView ViewOf(const cv::Mat& depth_m) {
   return DepthViewMaker(SceneCamera()).Make(depth_m);
 }
 
+inline cv::Rect ThumbnailOf(const Box& box, int step) {
+  return {static_cast<int>(box.x_min) / step, static_cast<int>(box.y_min) / step,
+          static_cast<int>(box.width()) / step, static_cast<int>(box.height()) / step};
+}
+
 // Share of the box's thumbnail pixels that the region covers.
 inline double Coverage(const DepthRegion& region, const Box& box, int step) {
   int inside = 0;
