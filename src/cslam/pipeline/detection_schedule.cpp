@@ -15,6 +15,10 @@ void Describe(OptionList& list, DetectionOptions& o) {
            "carries the newest ones forward; auto: live if threaded, else every-frame.");
   list.Add("live_stride", o.live_stride, {1, 1000}, "frames",
            "live: frames from one that the detector looks at to the next.");
+  list.Add("live_max_ahead", o.live_max_ahead, {0, 100000}, "frames",
+           "live, at --rate max: the source waits while the newest frame that the detector has "
+           "looked at is more than this and live_stride behind, so that a slow or busy machine "
+           "makes a run longer, but not blinder than at the sensor's rate.");
   list.Add("live_delay", o.live_delay_frames, {0, 1000}, "frames",
            "live, inline: detections become visible so many frames after their own.");
   list.Add("detector_nice", o.detector_nice, {0, 19}, "",

@@ -21,6 +21,7 @@ enum class DetectionSchedule {
 struct DetectionOptions {
   std::string schedule = "auto";  // "auto", "every-frame" or "live"
   int live_stride = 2;            // frames from one that the detector looks at to the next
+  int live_max_ahead = 2;         // frames that --rate max may run ahead of the detector
   int live_delay_frames = 2;      // inline only: a result becomes visible so many frames later
   int detector_nice = 2;          // how much lower the detector thread's priority is
 };

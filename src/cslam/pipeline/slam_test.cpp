@@ -10,8 +10,11 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include <algorithm>
+#include <chrono>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 namespace cslam {
 namespace {
@@ -71,6 +74,23 @@ std::shared_ptr<const RgbdFrame> Renamed(const RgbdFrame& frame, std::uint32_t i
   renamed.stamp = stamp;
   return std::make_shared<const RgbdFrame>(std::move(renamed));
 }
+
+// Finds nothing, slowly, and counts how far apart the frames are that it looks at.
+class SlowDetector : public Detector {
+ public:
+  explicit SlowDetector(std::uint32_t& max_gap) : max_gap_(max_gap) {}
+  Detections Detect(const RgbdFrame& frame) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    max_gap_ = std::max(max_gap_, frame.id.value() - last_);
+    last_ = frame.id.value();
+    return {frame.id, frame.stamp, {}};
+  }
+  DetectorInfo info() const override { return {.kind = "slow", .name = "", .source = ""}; }
+
+ private:
+  std::uint32_t& max_gap_;
+  std::uint32_t last_ = 0;
+};
 
 class SlamTest : public testing::TestWithParam<Execution> {
  protected:
@@ -316,6 +336,34 @@ TEST(ThreadedSlam, DropsNothingWhenFedTooFastButToldToWait) {
     slam.Feed(frame);
   EXPECT_EQ(slam.Finish().frames_dropped, 0U);
   EXPECT_EQ(slam.Finish().frames.size(), Frames().frames.size());
+}
+
+TEST(ThreadedSlam, DoesNotRunAheadOfASlowDetectorWhenToldToWait) {
+  constexpr int kMaxAhead = 1;
+  const auto max_gap = [](FeedPolicy policy) {
+    SlamOptions options = SmallOptions();
+    options.detection.live_stride = 1;
+    options.detection.live_max_ahead = kMaxAhead;
+    std::uint32_t gap = 0;
+    Slam slam(Frames().camera, options, Execution::kThreaded, {}, policy,
+              std::make_unique<SlowDetector>(gap));
+    std::uint32_t id = 0;
+    for (int round = 0; round < 4; ++round) {
+      for (const auto& frame : Frames().frames) {
+        slam.Feed(Renamed(*frame, id, Stamp{id * 1'000'000LL + 1}));
+        ++id;
+        if (policy == FeedPolicy::kDropOldest)
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+    }
+    slam.Finish();
+    return gap;
+  };
+  const SlamOptions options = SmallOptions();
+  const int waiting = 1 + options.pipeline.frame_queue + 1;  // tracked, in the queue, fed
+  EXPECT_LE(max_gap(FeedPolicy::kWait), static_cast<std::uint32_t>(1 + kMaxAhead + waiting));
+  EXPECT_GT(max_gap(FeedPolicy::kDropOldest), static_cast<std::uint32_t>(1 + kMaxAhead + waiting))
+      << "a camera does not wait";
 }
 
 }  // namespace

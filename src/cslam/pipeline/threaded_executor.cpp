@@ -24,9 +24,7 @@ TrackingResult Slam::ThreadedExecutor::Track(std::shared_ptr<const RgbdFrame> fr
 }
 
 void Slam::ThreadedExecutor::Feed(std::shared_ptr<const RgbdFrame> frame) {
-  if (stages_->feed_policy == FeedPolicy::kWait) {
-    stages_->in_flight.WaitUntilAtMost(stages_->max_proposals_ahead);
-  }
+  stages_->WaitForStagesBehind();
   stages_->frames.Push({.frame = std::move(frame),
                         .detections = nullptr,
                         .answer = nullptr,

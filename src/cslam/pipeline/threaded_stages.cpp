@@ -63,14 +63,23 @@ Slam::ThreadedExecutor::Stages::~Stages() {
   Join();
 }
 
+// Of a recording no frame is lost, and none is hurried past those who look at some of them.
+void Slam::ThreadedExecutor::Stages::WaitForStagesBehind() {
+  if (feed_policy != FeedPolicy::kWait) return;
+  in_flight.WaitUntilAtMost(max_proposals_ahead);
+  undetected.WaitUntilAtMost(
+      static_cast<std::size_t>(detection.live_stride + detection.live_max_ahead));
+}
+
 // Looks at the newest frame there is, again and again.
 void Slam::ThreadedExecutor::Stages::RunLiveDetector() {
   LowerPriorityOfThisThread(detection.detector_nice);
-  bool is_first = true;
-  while (auto frame = to_detect.Pop()) {
-    newest_detections.Publish(std::make_shared<const Detections>(detector->Detect(**frame)));
-    if (is_first) first_detection.Leave();
-    is_first = false;
+  std::size_t num_left_behind = 0;
+  while (const auto look = to_detect.Pop()) {
+    newest_detections.Publish(std::make_shared<const Detections>(detector->Detect(*look->frame)));
+    if (num_left_behind == 0) first_detection.Leave();
+    undetected.Leave(look->number - num_left_behind);
+    num_left_behind = look->number;
   }
 }
 
@@ -87,12 +96,13 @@ void Slam::ThreadedExecutor::Stages::RunDetectorFirst() {
 
 std::shared_ptr<const Detections> Slam::ThreadedExecutor::Stages::NewestDetections(
     const std::shared_ptr<const RgbdFrame>& frame) {
-  if (num_tracked % detection.live_stride == 0) {
-    if (num_tracked == 0) first_detection.Enter();
-    to_detect.Push(frame);
-    if (num_tracked == 0) first_detection.WaitUntilAtMost(0);
+  undetected.Enter();
+  const std::size_t index = num_tracked++;
+  if (index % static_cast<std::size_t>(detection.live_stride) == 0) {
+    if (index == 0) first_detection.Enter();
+    to_detect.Push({frame, num_tracked});
+    if (index == 0) first_detection.WaitUntilAtMost(0);
   }
-  ++num_tracked;
   return newest_detections.Get();
 }
 
@@ -295,6 +305,7 @@ void Slam::ThreadedExecutor::Stages::CloseAll() {
   events.Close();
   in_flight.Open();
   first_detection.Open();
+  undetected.Open();
 }
 
 void Slam::ThreadedExecutor::Stages::Join() {

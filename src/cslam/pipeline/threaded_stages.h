@@ -37,6 +37,12 @@ struct Slam::ThreadedExecutor::Stages {
     ResetRequest reset;
   };
 
+  // A frame for the live detector.
+  struct Look {
+    std::shared_ptr<const RgbdFrame> frame;
+    std::size_t number = 0;  // 1 for the first frame fed
+  };
+
   using MapperInput =
       std::variant<std::unique_ptr<const KeyframeProposal>, ResetRequest,
                    std::unique_ptr<const MapCorrection>, std::unique_ptr<const PoseRefinement>>;
@@ -53,6 +59,7 @@ struct Slam::ThreadedExecutor::Stages {
   };
   using PlaceInput = std::variant<RefinedKeyframe, CorrectedMap, LostFrame, ResetRequest>;
 
+  void WaitForStagesBehind();
   Stages(const Camera& camera, const SlamOptions& options, Sinks all_sinks, FeedPolicy policy,
          std::unique_ptr<Detector> some_detector);
   ~Stages();
@@ -94,11 +101,12 @@ struct Slam::ThreadedExecutor::Stages {
   std::vector<FrameRecord> records;  // owned by the sink thread
 
   Channel<TrackerInput> frames;
-  Channel<TrackerInput> observed;                       // every frame: what the detector has seen
-  Channel<std::shared_ptr<const RgbdFrame>> to_detect;  // live: the newest for it to look at
+  Channel<TrackerInput> observed;  // every frame: what the detector has seen
+  Channel<Look> to_detect;         // live: the newest for it to look at
   Latest<Detections> newest_detections;
-  Gate first_detection;          // live: waited for once, so that no map starts with people in it
-  std::int64_t num_tracked = 0;  // owned by the tracker thread
+  Gate first_detection;         // live: waited for once, so that no map starts with people in it
+  Gate undetected;              // live: frames tracked since the one it has looked at last
+  std::size_t num_tracked = 0;  // owned by the tracker thread
   Channel<MapperInput> proposals;
   Channel<PlaceInput> to_places;
   Channel<MapperInput> late_corrections;  // of the last keyframes, when no more proposals come

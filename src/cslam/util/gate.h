@@ -16,9 +16,9 @@ class Gate {
     ++in_flight_;
   }
 
-  void Leave() {
+  void Leave(std::size_t count = 1) {
     const std::scoped_lock lock(mutex_);
-    --in_flight_;
+    in_flight_ -= count;
     changed_.notify_all();
   }
 
