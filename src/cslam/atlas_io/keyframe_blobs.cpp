@@ -129,27 +129,27 @@ std::vector<PointId> UnpackPoints(std::string_view bytes, std::size_t num_keypoi
   return points;
 }
 
-std::string PackDepth(const cv::Mat& depth_mm) {
+std::string PackImage(const cv::Mat& image) {
   std::string bytes;
-  if (depth_mm.empty()) return bytes;
-  CSLAM_CHECK(depth_mm.type() == CV_16UC1);
-  const std::size_t row_bytes = static_cast<std::size_t>(depth_mm.cols) * sizeof(std::uint16_t);
-  bytes.reserve(static_cast<std::size_t>(depth_mm.rows) * row_bytes);
-  for (int v = 0; v < depth_mm.rows; ++v)
-    bytes.append(depth_mm.ptr<char>(v), row_bytes);
+  const std::size_t row_bytes = static_cast<std::size_t>(image.cols) * image.elemSize();
+  bytes.reserve(static_cast<std::size_t>(image.rows) * row_bytes);
+  for (int v = 0; v < image.rows; ++v)
+    bytes.append(image.ptr<char>(v), row_bytes);
   return bytes;
 }
 
-cv::Mat UnpackDepth(std::string_view bytes, std::int64_t width_px, std::int64_t height_px) {
+cv::Mat UnpackImage(std::string_view bytes, std::int64_t width_px, std::int64_t height_px,
+                    int type) {
   constexpr std::int64_t kMaxSide = std::numeric_limits<std::uint16_t>::max();
   if (width_px < 0 || width_px > kMaxSide || height_px < 0 || height_px > kMaxSide) {
-    throw Error("a depth image of {} x {} px", width_px, height_px);
+    throw Error("an image of {} x {} px", width_px, height_px);
   }
-  ExpectElements(bytes, static_cast<std::size_t>(width_px * height_px), sizeof(std::uint16_t));
+  const auto pixel_bytes = static_cast<std::size_t>(CV_ELEM_SIZE(type));
+  ExpectElements(bytes, static_cast<std::size_t>(width_px * height_px), pixel_bytes);
   if (bytes.empty()) return {};
-  cv::Mat depth_mm(static_cast<int>(height_px), static_cast<int>(width_px), CV_16UC1);
-  std::memcpy(depth_mm.data, bytes.data(), bytes.size());
-  return depth_mm;
+  cv::Mat image(static_cast<int>(height_px), static_cast<int>(width_px), type);
+  std::memcpy(image.data, bytes.data(), bytes.size());
+  return image;
 }
 
 }  // namespace cslam

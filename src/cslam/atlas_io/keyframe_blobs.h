@@ -28,8 +28,9 @@ std::vector<KeypointSemantics> UnpackSemantics(std::string_view bytes, std::size
 std::string PackPoints(const std::vector<PointId>& points);
 std::vector<PointId> UnpackPoints(std::string_view bytes, std::size_t num_keypoints);
 
-// Row by row, uint16 millimetres. An empty image has no rows.
-std::string PackDepth(const cv::Mat& depth_mm);
-cv::Mat UnpackDepth(std::string_view bytes, std::int64_t width_px, std::int64_t height_px);
+// Pixel by pixel, row by row. An empty image has no rows. type: CV_16UC1 or CV_8UC3.
+std::string PackImage(const cv::Mat& image);
+cv::Mat UnpackImage(std::string_view bytes, std::int64_t width_px, std::int64_t height_px,
+                    int type);
 
 }  // namespace cslam

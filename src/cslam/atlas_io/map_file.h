@@ -12,7 +12,7 @@
 
 namespace cslam {
 
-inline constexpr int kMapFormatVersion = 3;        // that is written
+inline constexpr int kMapFormatVersion = 4;        // that is written
 inline constexpr int kOldestMapFormatVersion = 2;  // that is read
 
 // What a map file says about the map as a whole.

@@ -137,24 +137,68 @@ TEST(MapFile, SaysWhatAForeignFileIsNot) {
 TEST(MapFile, NamesTheVersionItDoesNotKnow) {
   const TestFolder folder;
   std::string newer = TestFolder::Read(SaveAtlas(folder));
-  newer[63] = 4;
+  newer[63] = 5;
   EXPECT_THAT(LoadError(folder.Write("newer.map", newer)),
-              AllOf(HasSubstr("map format 4"), HasSubstr("up to 3"), HasSubstr("newer.map")));
+              AllOf(HasSubstr("map format 5"), HasSubstr("up to 4"), HasSubstr("newer.map")));
   newer[63] = 1;
   EXPECT_THAT(LoadError(folder.Write("older.map", newer)),
               AllOf(HasSubstr("map format 1"), HasSubstr("make it anew"), HasSubstr("older.map")));
 }
 
-// As programs of format 2 wrote it: without the last two columns of the objects.
+void UpdateChecksum(SqliteFile& file, const MapTable& table, std::uint32_t crc) {
+  file.Execute(fmt::format("UPDATE checksums SET crc32 = {} WHERE name = '{}'", crc, table.name));
+}
+
+// As programs of format 3 wrote it: without the last three columns of the keyframes.
+void MakeVersion3(const fs::path& path) {
+  SqliteFile file = SqliteFile::OpenForWriting(path);
+  for (const char* column : {"colours", "colour_height_px", "colour_width_px"})
+    file.Execute(fmt::format("ALTER TABLE keyframes DROP COLUMN {}", column));
+  TableReader row(file, kKeyframesTable.name, "*", "id");
+  while (row.NextRow()) {
+    constexpr int kNumColumns = 21;
+    for (int i = 0; i < kNumColumns; ++i) {
+      if (row.IsNull()) {
+        row.SkipNull();
+      } else if (i < 7 || i == 18 || i == 19) {
+        row.Int();
+      } else if (i < 14) {
+        row.Double();
+      } else {
+        row.Blob();
+      }
+    }
+  }
+  UpdateChecksum(file, kKeyframesTable, row.crc());
+  file.Execute("PRAGMA user_version = 3");
+}
+
+// As programs of format 2 wrote it: without the last two columns of the objects, either.
 void MakeVersion2(const fs::path& path) {
+  MakeVersion3(path);
   SqliteFile file = SqliteFile::OpenForWriting(path);
   file.Execute("ALTER TABLE objects DROP COLUMN num_unnamed_views");
   file.Execute("ALTER TABLE objects DROP COLUMN num_named_views");
   TableReader objects(file, kObjectsTable.name, "*", "id");
   ReadObjects(objects, 2);
-  file.Execute(
-      fmt::format("UPDATE checksums SET crc32 = {} WHERE name = 'objects'", objects.crc()));
+  UpdateChecksum(file, kObjectsTable, objects.crc());
   file.Execute("PRAGMA user_version = 2");
+}
+
+TEST(MapFile, IsReadThoughItIsOfVersion3) {
+  const TestFolder folder;
+  const Map map = test::MakeAtlas();
+  const fs::path path = SaveAtlas(folder, map);
+  MakeVersion3(path);
+  const SavedMap old = LoadMap(path);
+  EXPECT_EQ(old.info.version, 3);
+  ASSERT_EQ(old.map.Keyframes().size(), map.Keyframes().size());
+  for (const KeyframeId id : map.Keyframes()) {
+    const KeyframeData& data = *old.map.FindKeyframe(id)->data;
+    EXPECT_FALSE(map.FindKeyframe(id)->data->bgr_small.empty());
+    EXPECT_TRUE(data.bgr_small.empty()) << "nobody had kept it";
+    EXPECT_EQ(data.depth_small_mm.size(), map.FindKeyframe(id)->data->depth_small_mm.size());
+  }
 }
 
 TEST(MapFile, IsReadThoughItIsOfVersion2) {

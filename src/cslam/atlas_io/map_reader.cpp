@@ -133,8 +133,14 @@ ImageBounds CheckedBounds(const Camera& camera) {
   return bounds;
 }
 
-std::shared_ptr<const KeyframeData> ReadKeyframeBlobs(TableReader& row, KeyframeData data,
-                                                      const ImageBounds& bounds,
+cv::Mat ReadImage(TableReader& row, int type) {
+  const std::int64_t width_px = row.Int();
+  const std::int64_t height_px = row.Int();
+  return UnpackImage(row.Blob(), width_px, height_px, type);
+}
+
+std::shared_ptr<const KeyframeData> ReadKeyframeBlobs(TableReader& row, int version,
+                                                      KeyframeData data, const ImageBounds& bounds,
                                                       std::vector<PointId>& points) {
   FrameFeatures& features = data.features;
   features.keypoints = UnpackKeypoints(row.Blob());
@@ -143,14 +149,13 @@ std::shared_ptr<const KeyframeData> ReadKeyframeBlobs(TableReader& row, Keyframe
   features.semantics = UnpackSemantics(row.Blob(), size);
   points = UnpackPoints(row.Blob(), size);
   features.grid = KeypointGrid(bounds, features.keypoints);
-  const std::int64_t width_px = row.Int();
-  const std::int64_t height_px = row.Int();
-  data.depth_small_mm = UnpackDepth(row.Blob(), width_px, height_px);
+  data.depth_small_mm = ReadImage(row, CV_16UC1);
+  if (version >= 4) data.bgr_small = ReadImage(row, CV_8UC3);
   return std::make_shared<const KeyframeData>(std::move(data));
 }
 
-Keyframe ReadKeyframe(TableReader& row, const ImageBounds& bounds) {
-  constexpr int kNumBlobColumns = 7;
+Keyframe ReadKeyframe(TableReader& row, int version, const ImageBounds& bounds) {
+  const int num_blob_columns = version < 4 ? 7 : 10;
   Keyframe keyframe;
   const KeyframeId id(ReadRowId(row));
   const auto state = static_cast<KeyframeState>(ReadInt(row, 0, 2));
@@ -165,7 +170,7 @@ Keyframe ReadKeyframe(TableReader& row, const ImageBounds& bounds) {
     } else {
       SkipNulls(row, 7);
     }
-    SkipNulls(row, kNumBlobColumns);
+    SkipNulls(row, num_blob_columns);
     return keyframe;
   }
   keyframe.id = id;
@@ -173,14 +178,14 @@ Keyframe ReadKeyframe(TableReader& row, const ImageBounds& bounds) {
   data.frame = ReadId<FrameId>(row);
   data.stamp = Stamp{row.Int()};
   keyframe.T_world_camera = ReadPose(row);
-  keyframe.data = ReadKeyframeBlobs(row, std::move(data), bounds, keyframe.points);
+  keyframe.data = ReadKeyframeBlobs(row, version, std::move(data), bounds, keyframe.points);
   return keyframe;
 }
 
-std::vector<Keyframe> ReadKeyframes(TableReader& row, const ImageBounds& bounds) {
+std::vector<Keyframe> ReadKeyframes(TableReader& row, int version, const ImageBounds& bounds) {
   std::vector<Keyframe> keyframes;
   while (row.NextRow())
-    keyframes.push_back(ReadKeyframe(row, bounds));
+    keyframes.push_back(ReadKeyframe(row, version, bounds));
   return keyframes;
 }
 
@@ -285,7 +290,7 @@ SavedMap ReadDatabase(const fs::path& path, int version) {
   MapContents contents;
   contents.level_scales = info.level_scales;
   contents.keyframes =
-      read(kKeyframesTable, [&](TableReader& row) { return ReadKeyframes(row, bounds); });
+      read(kKeyframesTable, [&](TableReader& row) { return ReadKeyframes(row, version, bounds); });
   contents.points = read(kPointsTable, ReadPoints);
   contents.objects =
       read(kObjectsTable, [&](TableReader& row) { return ReadObjects(row, version); });

@@ -35,8 +35,12 @@ inline constexpr MapTable kKeyframesTable{
     "id INTEGER PRIMARY KEY, state INTEGER, map INTEGER, parent INTEGER, forward_to INTEGER,"
     " frame INTEGER, stamp_ns INTEGER, tx, ty, tz, qx, qy, qz, qw,"
     " keypoints BLOB, descriptors BLOB, semantics BLOB, points BLOB,"
-    " depth_width_px INTEGER, depth_height_px INTEGER, depth_mm BLOB",
-    21};
+    " depth_width_px INTEGER, depth_height_px INTEGER, depth_mm BLOB,"
+    " colour_width_px INTEGER, colour_height_px INTEGER, colours BLOB",
+    24};
+// Of these the last ones came with version 4.
+inline constexpr std::string_view kKeyframeColumnsSince4 =
+    ", colour_width_px INTEGER, colour_height_px INTEGER, colours BLOB";
 inline constexpr MapTable kPointsTable{
     "points",
     "id INTEGER PRIMARY KEY, state INTEGER, replaced_by INTEGER, map INTEGER, x, y, z,"
@@ -83,9 +87,11 @@ inline constexpr std::size_t kAppearanceBytes = 6 * sizeof(float) + 32;
 // As SQLite keeps it, letter by letter.
 inline std::string CreateTableSql(const MapTable& table, int version = kMapFormatVersion) {
   std::string_view columns = table.columns;
-  if (version < 3 && columns.ends_with(kObjectColumnsSince3)) {
-    columns.remove_suffix(kObjectColumnsSince3.size());
-  }
+  const auto leave_out = [&columns](std::string_view last) {
+    if (columns.ends_with(last)) columns.remove_suffix(last.size());
+  };
+  if (version < 3) leave_out(kObjectColumnsSince3);
+  if (version < 4) leave_out(kKeyframeColumnsSince4);
   return std::string("CREATE TABLE ") + table.name + "(" + std::string(columns) + ")";
 }
 

@@ -58,17 +58,21 @@ void WriteAliveKeyframe(TableWriter& row, const Keyframe& keyframe) {
   const std::string descriptors = PackDescriptors(data.features.descriptors);
   const std::string semantics = PackSemantics(data.features.semantics);
   const std::string points = PackPoints(keyframe.points);
-  const std::string depth = PackDepth(data.depth_small_mm);
   for (const std::string* blob : {&keypoints, &descriptors, &semantics, &points})
     row.Blob(*blob);
+  const std::string depth = PackImage(data.depth_small_mm);
+  const std::string colours = PackImage(data.bgr_small);
   row.Int(data.depth_small_mm.cols);
   row.Int(data.depth_small_mm.rows);
   row.Blob(depth);
+  row.Int(data.bgr_small.cols);
+  row.Int(data.bgr_small.rows);
+  row.Blob(colours);
   row.EndRow();
 }
 
 void WriteDeadKeyframe(TableWriter& row, const Keyframe& keyframe) {
-  constexpr int kNumBlobColumns = 7;
+  constexpr int kNumBlobColumns = 10;
   WriteId(row, keyframe.forward_to);
   WriteNulls(row, 2);  // frame and stamp
   if (keyframe.forward_to.valid()) {

@@ -33,6 +33,8 @@ inline Keyframe MakeFullKeyframe(std::uint32_t id, int num_features, double x, K
   auto data = std::make_shared<KeyframeData>(*keyframe.data);
   data->depth_small_mm = cv::Mat(depth_size, CV_16UC1, cv::Scalar(2000));
   data->depth_small_mm.at<std::uint16_t>(3, 5) = static_cast<std::uint16_t>(1000 + id);
+  data->bgr_small = cv::Mat(depth_size / 2, CV_8UC3, cv::Scalar(10, 20, 30));
+  data->bgr_small.at<cv::Vec3b>(2, 3) = {1, 2, static_cast<unsigned char>(id)};
   data->features.semantics[0] = {KeypointLabel::kDynamic, 0, TrackId(id)};
   data->features.semantics[1] = {KeypointLabel::kMovable, 56, TrackId(7)};
   data->features.keypoints[2].depth_m = 1.5F;
@@ -158,6 +160,11 @@ inline bool AreEqual(const Keypoint& a, const Keypoint& b) {
          a.disparity_px == b.disparity_px && a.angle_rad == b.angle_rad && a.octave == b.octave;
 }
 
+inline bool AreEqual(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() &&
+         (a.empty() || cv::norm(a, b, cv::NORM_INF) == 0.0);
+}
+
 inline bool AreEqual(const KeyframeData& a, const KeyframeData& b) {
   const auto are_equal = [](const auto& x, const auto& y) { return AreEqual(x, y); };
   const FrameFeatures& f = a.features;
@@ -166,8 +173,7 @@ inline bool AreEqual(const KeyframeData& a, const KeyframeData& b) {
          std::ranges::equal(f.keypoints, g.keypoints, are_equal) &&
          f.descriptors == g.descriptors &&
          std::ranges::equal(f.semantics, g.semantics, are_equal) &&
-         a.depth_small_mm.size() == b.depth_small_mm.size() &&
-         (a.depth_small_mm.empty() || cv::norm(a.depth_small_mm, b.depth_small_mm) == 0.0);
+         AreEqual(a.depth_small_mm, b.depth_small_mm) && AreEqual(a.bgr_small, b.bgr_small);
 }
 
 inline bool AreEqual(const Keyframe& a, const Keyframe& b) {

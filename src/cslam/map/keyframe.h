@@ -21,6 +21,7 @@ struct KeyframeData {
   Stamp stamp;
   FrameFeatures features;
   cv::Mat depth_small_mm;  // about 160 x 120, CV_16UC1, millimetres, 0 = none or dynamic
+  cv::Mat bgr_small;       // about 80 x 60, CV_8UC3, as recorded; empty without colours
 };
 
 // A neighbour in the covisibility graph.

@@ -40,12 +40,16 @@ std::size_t BytesOf(const std::vector<T>& values) {
   return values.capacity() * sizeof(T);
 }
 
+std::size_t BytesOf(const cv::Mat& image) {
+  return image.total() * image.elemSize();
+}
+
 std::size_t EstimateBytes(const Keyframe& keyframe) {
   const FrameFeatures& features = keyframe.data->features;
   const std::size_t grid_bytes = features.size() * sizeof(std::uint16_t);
   return sizeof(Keyframe) + sizeof(KeyframeData) + BytesOf(features.keypoints) +
          BytesOf(features.descriptors) + BytesOf(features.semantics) + grid_bytes +
-         keyframe.data->depth_small_mm.total() * keyframe.data->depth_small_mm.elemSize() +
+         BytesOf(keyframe.data->depth_small_mm) + BytesOf(keyframe.data->bgr_small) +
          BytesOf(keyframe.points) + BytesOf(keyframe.covisible);
 }
 

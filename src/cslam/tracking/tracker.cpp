@@ -5,6 +5,7 @@
 #include "cslam/tracking/keyframe_policy.h"
 #include "cslam/util/check.h"
 #include "cslam/util/stopwatch.h"
+#include "cslam/vision/colour_thumbnail.h"
 
 #include <algorithm>
 #include <cmath>
@@ -334,6 +335,7 @@ KeyframeObjects Tracker::TakeObjects(const CurrentFrame& current) {
 
 KeyframeProposal Tracker::Propose(CurrentFrame& current, KeyframeReason reason) {
   current.data->depth_small_mm = observer_.RestingDepth(current.frame->depth_m);
+  current.data->bgr_small = MakeColourThumbnail(current.frame->bgr);
   KeyframeProposal proposal;
   proposal.id = KeyframeId(next_keyframe_++);
   proposal.map = map_;
