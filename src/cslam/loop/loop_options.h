@@ -72,7 +72,7 @@ struct LoopOptions {
   double max_speed_m_s = 1.5;
   double min_drift_m = 0.01;
   double min_drift_deg = 0.5;
-  // Measured: true loops 0.01 at most; by the way of a moved chair 0.04 and more, if three
+  // Measured: true loops 0.01 at most; by the way of a moved chair 0.04 and more, where two
   // keyframes agree.
   DepthCheckOptions depth_check{.max_contradicted = 0.02};
   EssentialGraphOptions graph;

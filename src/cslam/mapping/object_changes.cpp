@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/mapping/object_changes.h"
 
+#include "cslam/mapping/object_geometry.h"
 #include "cslam/mapping/views_before.h"
 #include "cslam/objects/object_sighting.h"
 
@@ -22,17 +23,11 @@ double Confidence(const MapView& map, const MapChange& change) {
   return confidence;
 }
 
-double MiddleSideM(const MapObject& object) {
-  Eigen::Vector3d size = object.box.size_m;
-  std::sort(size.begin(), size.end());
-  return std::max(size[1], 0.01);
-}
-
 // Seen from one side only a box is thin: it is taken to be as deep as it is wide.
 bool StandsInside(const MapView& map, const MapObject& object, const MapObject& around) {
   const Eigen::Vector3d p = map.T_world_object(around).Inverse() * map.CentroidOf(object);
   const Eigen::Vector3d p_box = around.box.rotation.conjugate() * (p - around.box.center);
-  const double middle_m = MiddleSideM(around);
+  const double middle_m = MiddleSideM(around.box);
   return (p_box.cwiseAbs().array() <= 0.5 * around.box.size_m.array().max(middle_m)).all();
 }
 
@@ -117,10 +112,32 @@ bool ChangeList::LooksLike(const MapObject& a, const MapObject& b) const {
   if (!classes_.AreAlike(a.class_id, b.class_id)) return false;
   const double likeness = ColourLikeness(a.colours, b.colours);
   if (likeness < options_.min_likeness) return false;
-  const double ratio = MiddleSideM(a) / MiddleSideM(b);
+  const double ratio = MiddleSideM(a.box) / MiddleSideM(b.box);
   const double max_ratio =
       likeness >= options_.sure_likeness ? options_.sure_max_size_ratio : options_.max_size_ratio;
   return ratio <= max_ratio && ratio >= 1.0 / max_ratio;
+}
+
+bool ChangeList::LooksTheSame(const MapObject& a, const MapObject& b) const {
+  const double ratio = MiddleSideM(a.box) / MiddleSideM(b.box);
+  return ColourLikeness(a.colours, b.colours) >= options_.past.sure_likeness &&
+         std::max(ratio, 1.0 / ratio) <= options_.past.sure_max_size_ratio;
+}
+
+// What was seen while the other was there is neither the same nor in its place. Unless it was only
+// while one looked at its place again, and found it empty: something else was taken for it then.
+bool ChangeList::WentBefore(const MapObject& old_object, const MapObject& new_object) const {
+  if (old_object.last_keyframe < new_object.arrived_keyframe) return true;
+  if (!old_object.absent_since || !LooksTheSame(old_object, new_object) ||
+      SecondsBetween(*old_object.absent_since, old_object.last_seen) >=
+          options_.recognise_after_s) {
+    return false;
+  }
+  return std::none_of(
+      old_object.history.begin(), old_object.history.end(), [&](const BeliefStep& step) {
+        return step.cause == BeliefCause::kSeen && new_object.first_seen < step.stamp &&
+               HasPassed(step.stamp, *old_object.absent_since, options_.recognise_after_s);
+      });
 }
 
 bool ChangeList::StandsAt(const MapView& map, const MapObject& a, const MapObject& b) const {
@@ -139,10 +156,7 @@ bool ChangeList::Join(const MapView& map, MapChange& change, const MapChange& ot
   const MapObject* new_object = map.FindObject(added.object);
   if (old_object == nullptr || new_object == nullptr || old_object == new_object) return false;
   if (old_object->map != new_object->map) return false;
-  // What was seen while the other was there is neither the same nor in its place.
-  if (!(old_object->last_keyframe < new_object->arrived_keyframe)) {
-    return false;
-  }
+  if (!WentBefore(*old_object, *new_object)) return false;
   MapChange joined = removed;
   if (LooksLike(*old_object, *new_object)) {
     joined.kind = MapChangeKind::kMoved;
@@ -334,6 +348,49 @@ void ChangeList::OnDisplaced(Map& map, ObjectId id, ObjectId by, Stamp now,
     });
   }
   changes.push_back(change);
+  map.SetChanges(std::move(changes));
+}
+
+std::vector<ObjectId> ChangeList::CameFromNowhere(const MapView& map) const {
+  std::vector<ObjectId> objects;
+  for (const MapChange& change : map.changes()) {
+    if (IsSingle(change, MapChangeKind::kAdded)) objects.push_back(change.object);
+  }
+  return objects;
+}
+
+bool ChangeList::MayTurnUp(const MapView& map, ObjectId gone) const {
+  const auto told = ToldDeparture(map, gone);
+  return !told || IsSingle(*told, MapChangeKind::kRemoved);
+}
+
+bool ChangeList::MayComeFrom(const MapObject& object, const MapObject& origin) const {
+  return origin.map == object.map && LooksLike(origin, object) &&
+         origin.last_keyframe < object.arrived_keyframe;
+}
+
+void ChangeList::OnOriginFound(Map& map, ObjectId origin_id, ObjectId id, Stamp now,
+                               int num_views) const {
+  const MapObject& origin = *map.FindObject(origin_id);
+  std::vector<MapChange> changes = map.changes();
+  MapChange moved;
+  moved.kind = MapChangeKind::kRemoved;
+  moved.object = origin_id;
+  moved.last_seen_there = origin.last_seen;
+  moved.first_seen_absent = origin.absent_since;
+  moved.reported = now;
+  moved.num_absent_views = num_views;
+  for (const MapChange& change : changes) {
+    if (!IsSingle(change, MapChangeKind::kAdded) || change.object != id) continue;
+    moved.is_between_sessions = change.is_between_sessions;
+    if (Join(map, moved, MapChange(change))) break;
+  }
+  if (moved.kind != MapChangeKind::kMoved) return;
+  std::erase_if(changes, [&](const MapChange& change) {
+    return (change.object == id && IsSingle(change, MapChangeKind::kAdded)) ||
+           (change.object == origin_id && IsSingle(change, MapChangeKind::kRemoved));
+  });
+  changes.push_back(moved);
   map.SetChanges(std::move(changes));
 }
 

@@ -7,6 +7,7 @@
 #include "cslam/mapping/object_options.h"
 
 #include <optional>
+#include <vector>
 
 namespace cslam {
 
@@ -30,6 +31,21 @@ class ChangeList {
   // Another thing stands where the object stood.
   void OnDisplaced(Map& map, ObjectId object, ObjectId by, Stamp now, std::uint32_t session) const;
 
+  // Those of which is told that they have come, from wherever.
+  std::vector<ObjectId> CameFromNowhere(const MapView& map) const;
+
+  // Whether the two look alike beyond doubt, whatever they are called.
+  bool LooksTheSame(const MapObject& a, const MapObject& b) const;
+
+  // What is told of it, if anything, is that it has gone, not what became of it.
+  bool MayTurnUp(const MapView& map, ObjectId gone) const;
+
+  // Whether the object may have been the origin, a thing that has gone.
+  bool MayComeFrom(const MapObject& object, const MapObject& origin) const;
+
+  // The object, told to have come, is what was the origin.
+  void OnOriginFound(Map& map, ObjectId origin, ObjectId object, Stamp now, int num_views) const;
+
   // The object never was: it did not come, nor is it what anything turned into.
   void OnMistake(Map& map, ObjectId object) const;
 
@@ -38,6 +54,7 @@ class ChangeList {
 
  private:
   bool LooksLike(const MapObject& a, const MapObject& b) const;
+  bool WentBefore(const MapObject& old_object, const MapObject& new_object) const;
   bool StandsAt(const MapView& map, const MapObject& a, const MapObject& b) const;
   // Two halves that go together, and what one of them was joined with before.
   struct Pairing {

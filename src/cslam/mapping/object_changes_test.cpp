@@ -148,8 +148,24 @@ TEST_F(ChangeListTest, AllowsForMoreDifferenceInSizeIfTheColoursAreEqual) {
 TEST_F(ChangeListTest, DoesNotTakeWhatWasSeenAtTheSameTimeForTheSameThing) {
   const ObjectId old_one = AddObject(kHere, 0, 10);
   Arrive(AddObject(kThere, 8, 12));
-  Leave(old_one);
+  Leave(old_one, Stamp{20'000'000'000LL});
   EXPECT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kRemoved}));
+}
+
+TEST_F(ChangeListTest, ForgivesAMistakeWhileThePlaceIsFoundEmpty) {
+  const auto seen_again_and_gone = [this](Stamp seen_between) {
+    const ObjectId old_one = AddObject(kHere, 0, 15);  // seen last when its place was seen again
+    Arrive(AddObject(kThere, 8, 12));
+    MapObject object = *map_.FindObject(old_one);
+    NoteBelief(object, seen_between, BeliefCause::kSeen);
+    map_.SetObject(std::move(object));
+    Leave(old_one, Stamp{16'000'000'000LL});
+  };
+  seen_again_and_gone(Stamp{5'000'000'000LL});
+  EXPECT_EQ(Kinds(), std::vector{Kind::kMoved});
+  map_.SetChanges({});
+  seen_again_and_gone(Stamp{12'000'000'000LL});
+  EXPECT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kRemoved})) << "both were seen meanwhile";
 }
 
 TEST_F(ChangeListTest, TellsAReplacementNearThePlaceOnly) {

@@ -272,6 +272,12 @@ OrientedBox BoxAround(std::span<const Eigen::Vector3f> points, const Eigen::Vect
   return box;
 }
 
+double MiddleSideM(const OrientedBox& box) {
+  Eigen::Vector3d size = box.size_m;
+  std::sort(size.begin(), size.end());
+  return std::max(size[1], 0.01);
+}
+
 Eigen::Vector3d MeanOf(std::span<const Eigen::Vector3f> points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3f& p : points)

@@ -39,6 +39,10 @@ double Overlap(const ObjectSurface& surface, std::span<const Eigen::Vector3f> po
 // The smallest box of which one axis is up (unit vector), the outermost 2 % left out.
 OrientedBox BoxAround(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& up);
 
+// The middle one of its sides, at least 1 cm: of what is seen from one side the least is too small,
+// and the greatest is the first to take in something that is not the thing.
+double MiddleSideM(const OrientedBox& box);
+
 // points not empty.
 Eigen::Vector3d MeanOf(std::span<const Eigen::Vector3f> points);
 

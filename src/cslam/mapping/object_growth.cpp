@@ -71,6 +71,32 @@ MapObject ObjectGrowth::Begin(const Map& map, MapId map_id, const KeyframePropos
   return object;
 }
 
+MapObject ObjectGrowth::AtPastPlace(const Map& map, const MapObject& object, const PastPlace& place,
+                                    const Eigen::Vector3d& up_world) const {
+  MapObject past;
+  past.map = object.map;
+  past.state = ObjectState::kAbsent;
+  past.class_id = object.class_id;
+  past.votes = object.votes;
+  past.log_odds = LogOdds(options_.belief.absent_at);
+  past.reference = place.reference;
+  ObjectSurface surface;
+  surface.voxel_m = object.surface->voxel_m;
+  past.surface = std::make_shared<const ObjectSurface>(
+      WithView(surface, place.points, Se3(), DepthView{}, DepthRegion{}, 0.0));
+  past.colours = place.colours;
+  past.first_keyframe = past.arrived_keyframe = place.first_keyframe;
+  past.last_keyframe = place.last_keyframe;
+  past.first_seen = map.FindKeyframe(place.first_keyframe)->data->stamp;
+  past.last_seen = map.FindKeyframe(place.last_keyframe)->data->stamp;
+  past.absent_since = place.first_through;
+  past.first_session = static_cast<std::uint32_t>(map.SessionOf(place.first_keyframe));
+  past.last_session = static_cast<std::uint32_t>(map.SessionOf(place.last_keyframe));
+  past.num_sightings = place.num_views;
+  NoteBelief(past, place.first_through, BeliefCause::kLookedThrough);
+  return Measured(map, std::move(past), up_world);
+}
+
 MapObject ObjectGrowth::WithSighting(const Map& map, MapObject object,
                                      const KeyframeProposal& proposal,
                                      const PlacedSighting& sighting,

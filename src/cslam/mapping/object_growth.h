@@ -4,6 +4,7 @@
 
 #include "cslam/map/map.h"
 #include "cslam/mapping/object_association.h"
+#include "cslam/mapping/past_place.h"
 #include "cslam/messages/messages.h"
 
 namespace cslam {
@@ -12,6 +13,10 @@ namespace cslam {
 class ObjectGrowth {
  public:
   ObjectGrowth(const MapObjectOptions& options, const ObjectClasses& classes);
+
+  // The object as it stood at an earlier place, which it has left.
+  MapObject AtPastPlace(const Map& map, const MapObject& object, const PastPlace& place,
+                        const Eigen::Vector3d& up_world) const;
 
   // A candidate without surface yet. The keyframe is the map's.
   MapObject Begin(const Map& map, MapId map_id, const KeyframeProposal& proposal,

@@ -58,6 +58,8 @@ void Describe(OptionList& list, MapObjectOptions& o) {
   list.Add("sweep_for", o.sweep_for_s, {0.0, 3600.0}, "s",
            "So long after a thing has gone, points at its place that are looked through go too, "
            "though nobody had named them.");
+  list.Add("sweep_margin", o.sweep_margin_m, {0.0, 5.0}, "m",
+           "... and so far around it: there may have been more of it than ever had its name.");
   list.Add("min_doubt_views", o.min_doubt_views, {1, 100'000}, "frames",
            "A thing that was wholly in view, near by, so often ...");
   list.Add("min_named_share", o.min_named_share, {0.0, 1.0}, "",
@@ -67,9 +69,35 @@ void Describe(OptionList& list, MapObjectOptions& o) {
            "Share of a thing's surface in the box of one that came later: two cannot be there.");
   list.Add("min_displacing_views", o.min_displacing_views, {1, 1000}, "keyframes",
            "How often that must have been seen, and the old thing not at all.");
+  list.Group("past", o.past);
   list.Group("classes", o.classes);
   list.Group("belief", o.belief);
   list.Group("view", o.view);
+}
+
+void Describe(OptionList& list, PastOptions& o) {
+  list.Add("enabled", o.enabled,
+           "Look for where a thing that came stood before, though nobody named it there.");
+  list.Add("max_compared", o.max_compared, {1, 10'000}, "keyframes",
+           "Earlier keyframes that a new one is held against to see what has gone.");
+  list.Add("min_looks", o.min_looks, {1, 255}, "keyframes",
+           "So many must look through a reading before it counts as gone.");
+  list.Add("min_pixels", o.min_pixels, {1, 100'000}, "px",
+           "Of an image of 80 x 60 that a gone thing covers.");
+  list.Add("min_views", o.min_views, {1, 1000}, "keyframes", "That must have seen it there ...");
+  list.Add("same_place", o.same_place_m, {0.01, 10.0}, "m",
+           "... with its middle so near to where others saw it.");
+  list.Add("min_colour_share", o.min_colour_share, {0.0, 1.0}, "",
+           "Colours that make up less of a thing are not looked for.");
+  list.Add("min_likeness", o.min_likeness, {0.0, 1.0}, "",
+           "Common share of the colours of what has gone and of what came.");
+  list.Add("max_size_ratio", o.max_size_ratio, {1.0, 10.0}, "",
+           "How much larger one may seem than the other.");
+  list.Add("sure_likeness", o.sure_likeness, {0.0, 1.0}, "",
+           "The common share of the colours where what has gone had another name, or seems to have "
+           "been seen once more after the other came.");
+  list.Add("sure_max_size_ratio", o.sure_max_size_ratio, {1.0, 10.0}, "",
+           "How much larger one may seem than the other in these cases.");
 }
 
 BeliefUpdate BeliefUpdateOf(const MapObjectOptions& options) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/mapping/past_options.h"
 #include "cslam/objects/expected_view.h"
 #include "cslam/objects/object_classes.h"
 #include "cslam/objects/persistence.h"
@@ -45,11 +46,13 @@ struct MapObjectOptions {
   int min_views_before = 2;
   int settled_sightings = 8;
   double sweep_for_s = 10.0;
+  double sweep_margin_m = 0.3;
   int max_strays = 3;
   int min_doubt_views = 15;
   double min_named_share = 0.2;
   double min_displaced = 0.4;
   int min_displacing_views = 3;
+  PastOptions past;
   ObjectClassOptions classes;
   PersistenceOptions belief;
   ExpectedViewOptions view;

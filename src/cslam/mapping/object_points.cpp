@@ -44,14 +44,14 @@ void AssignPoints(Map& map, KeyframeId keyframe, std::span<const PointId> points
 }
 
 void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal,
-                const ExpectedViewOptions& options) {
-  constexpr double kMarginM = 0.3;  // of the thing there may have been more than ever had its name
+                const MapObjectOptions& options) {
   const MapObject& object = *map.FindObject(id);
   const DepthView& view = proposal.objects.view;
   if (view.empty()) return;
   const Se3 T_object_world = map.T_world_object(object).Inverse();
   const Se3 T_camera_world = map.FindKeyframe(proposal.id)->T_world_camera.Inverse();
-  const Eigen::Vector3d half = 0.5 * object.box.size_m + Eigen::Vector3d::Constant(kMarginM);
+  const Eigen::Vector3d half =
+      0.5 * object.box.size_m + Eigen::Vector3d::Constant(options.sweep_margin_m);
   const Eigen::Matrix3d R_box = object.box.rotation.toRotationMatrix().transpose();
   const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false};
   for (std::size_t i = 0; i < map.num_point_ids(); ++i) {
@@ -61,7 +61,7 @@ void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal,
     const Eigen::Vector3d p_box = R_box * (p - object.box.center);
     if ((p_box.cwiseAbs().array() > half.array()).any()) continue;
     const Eigen::Vector3f sample = point->p_world.cast<float>();
-    const ExpectedView seen = LookAtPlace({&sample, 1}, T_camera_world, sampler, 0.0, options);
+    const ExpectedView seen = LookAtPlace({&sample, 1}, T_camera_world, sampler, 0.0, options.view);
     if (seen.num_through > 0) map.AssignPoint(point->id, id);
   }
 }

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "cslam/map/map.h"
+#include "cslam/mapping/object_options.h"
 #include "cslam/messages/messages.h"
-#include "cslam/objects/expected_view.h"
 #include "cslam/objects/object_classes.h"
 
 #include <map>
@@ -20,9 +20,9 @@ void AssignPoints(Map& map, KeyframeId keyframe, std::span<const PointId> points
                   const std::map<TrackId, ObjectId>& objects_of_tracks,
                   const ObjectClasses& classes);
 
-// Gives a thing that is gone the points in its box that nobody had named, as far as the keyframe
-// looks through them as well.
+// Gives a thing that is gone the points in and around its box that nobody had named, as far as the
+// keyframe looks through them as well.
 void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal,
-                const ExpectedViewOptions& options);
+                const MapObjectOptions& options);
 
 }  // namespace cslam

@@ -43,6 +43,7 @@ class ObjectLayerTest : public ::testing::Test {
     ThingView seen = LookAtThings(room_, camera_, T_world_camera, now_);
     KeyframeProposal proposal;
     proposal.objects = {seen.view, std::move(seen.sightings), std::move(evidence)};
+    bgr_small_ = seen.bgr_small;
     return Insert(T_world_camera, std::move(proposal));
   }
   ObjectLayerReport Insert(const Se3& T_world_camera, KeyframeProposal proposal) {
@@ -52,6 +53,7 @@ class ObjectLayerTest : public ::testing::Test {
     auto data = std::make_shared<KeyframeData>();
     data->stamp = now_;
     data->depth_small_mm = proposal.objects.view.depth_mm;
+    data->bgr_small = std::exchange(bgr_small_, {});
     data->features = MakeFeatures(
         {{.u = 320.0F, .v = 240.0F, .depth_m = 1.75F}, {.u = 10.0F, .v = 10.0F, .depth_m = 3.0F}});
     data->features.semantics[0].track = keypoint_track_;
@@ -149,6 +151,7 @@ class ObjectLayerTest : public ::testing::Test {
   Stamp now_{1'000'000'000LL};
   bool has_points_ = false;
   TrackId keypoint_track_;
+  cv::Mat bgr_small_;  // of the next keyframe
 };
 
 }  // namespace cslam::test

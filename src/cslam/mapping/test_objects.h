@@ -7,8 +7,10 @@
 #include "cslam/map/test_room.h"
 #include "cslam/objects/object_sighting.h"
 #include "cslam/util/random.h"
+#include "cslam/vision/colour_thumbnail.h"
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -30,6 +32,7 @@ struct ThingRoom {
 
 struct ThingView {
   DepthView view;
+  cv::Mat bgr_small;                      // grey, and things in their colour
   std::vector<ObjectSighting> sightings;  // of the detected things that show
 };
 
@@ -68,6 +71,15 @@ inline ColourHistogram ColoursWithHue(float hue) {
   return colours;
 }
 
+inline cv::Vec3b PaintOf(float hue) {
+  const auto bin = static_cast<unsigned char>(hue);
+  const cv::Mat hsv(1, 1, CV_8UC3,
+                    cv::Scalar(bin * 180 / 8 + 11, bin * 256 / 8 + 16, bin * 256 / 8 + 16));
+  cv::Mat bgr;
+  cv::cvtColor(hsv, bgr, cv::COLOR_HSV2BGR);
+  return bgr.at<cv::Vec3b>(0);
+}
+
 inline ThingView LookAtThings(const ThingRoom& room, const Camera& camera,
                               const Se3& T_world_camera, Stamp stamp) {
   ThingView seen;
@@ -77,8 +89,8 @@ inline ThingView LookAtThings(const ThingRoom& room, const Camera& camera,
     walls.things.push_back(thing.box);
   seen.view = {RoomDepth(walls, camera, T_world_camera), DepthThumbnailStep(camera.width), camera};
   const cv::Mat& depth_mm = seen.view.depth_mm;
+  seen.bgr_small = cv::Mat(depth_mm.size() / kDepthPerColourPixel, CV_8UC3, cv::Scalar::all(128));
   for (const Thing& thing : room.things) {
-    if (!thing.is_detected) continue;
     cv::Mat mask = cv::Mat::zeros(depth_mm.size(), CV_8UC1);
     for (int v = 0; v < mask.rows; ++v) {
       for (int u = 0; u < mask.cols; ++u) {
@@ -91,7 +103,10 @@ inline ThingView LookAtThings(const ThingRoom& room, const Camera& camera,
         }
       }
     }
-    if (cv::countNonZero(mask) < 8) continue;
+    cv::Mat small;
+    cv::resize(mask, small, seen.bgr_small.size(), 0.0, 0.0, cv::INTER_NEAREST);
+    seen.bgr_small.setTo(PaintOf(thing.hue), small);
+    if (!thing.is_detected || cv::countNonZero(mask) < 8) continue;
     ObjectSighting sighting;
     sighting.track = thing.track;
     sighting.class_id = thing.class_id;

@@ -13,20 +13,16 @@ namespace {
 
 constexpr int kBorderPx = 1;  // of depth_mm: the neighbourhood must lie inside
 
-struct Readings {
-  double here_m = 0.0;     // 0: none
-  double nearest_m = 0.0;  // of the 3 x 3 neighbourhood
-};
-
-Readings ReadAround(const cv::Mat& depth_mm, int u, int v) {
-  Readings readings{0.001 * depth_mm.at<std::uint16_t>(v, u), std::numeric_limits<double>::max()};
+// Of the readings around a pixel.
+double NearestAroundM(const cv::Mat& depth_mm, int u, int v) {
+  double nearest_m = std::numeric_limits<double>::max();
   for (int dv = -kBorderPx; dv <= kBorderPx; ++dv) {
     for (int du = -kBorderPx; du <= kBorderPx; ++du) {
       const double z = 0.001 * depth_mm.at<std::uint16_t>(v + dv, u + du);
-      if (z > 0.0) readings.nearest_m = std::min(readings.nearest_m, z);
+      if (z > 0.0) nearest_m = std::min(nearest_m, z);
     }
   }
-  return readings;
+  return nearest_m;
 }
 
 // Most of the place is hidden, like that of a chair behind an umbrella, but where the rest of it
@@ -51,7 +47,9 @@ PlaceVerdict Judge(const ExpectedView& view, const ExpectedViewOptions& options)
       view.num_through + view.num_taken >= options.min_through_share * visible) {
     return PlaceVerdict::kLookedThrough;
   }
-  if (view.num_standing >= options.min_standing_share * visible) return PlaceVerdict::kStanding;
+  const double min_standing = options.min_standing_share * visible;
+  if (view.num_standing >= min_standing) return PlaceVerdict::kStanding;
+  if (view.num_standing + view.num_taken >= min_standing) return PlaceVerdict::kTaken;
   return PlaceVerdict::kUnobserved;
 }
 
@@ -76,41 +74,57 @@ void Describe(OptionList& list, ExpectedViewOptions& o) {
            "Share of that which must be there for the place to be taken.");
 }
 
+PointVerdict LookAtPoint(const Eigen::Vector3d& p, const DepthSampler& depth, double pose_sigma_m,
+                         const ExpectedViewOptions& options) {
+  const cv::Mat& image = *depth.depth_mm;
+  if (p.z() < 0.1 || p.z() > options.max_depth_m || image.empty()) return PointVerdict::kOutside;
+  Eigen::Vector2d uv = Project(*depth.camera, p);
+  if (depth.is_distorted) uv = Distort(*depth.camera, uv);
+  const int u = static_cast<int>(std::floor(uv.x() / depth.step));
+  const int v = static_cast<int>(std::floor(uv.y() / depth.step));
+  if (!(u >= kBorderPx && v >= kBorderPx && u < image.cols - kBorderPx &&
+        v < image.rows - kBorderPx)) {
+    return PointVerdict::kOutside;
+  }
+  const double here_m = 0.001 * image.at<std::uint16_t>(v, u);
+  const double tolerance = options.ToleranceM(p.z()) + pose_sigma_m;
+  if (here_m <= 0.0) return PointVerdict::kUnclear;
+  if (here_m < p.z() - tolerance) return PointVerdict::kHidden;
+  if (here_m <= p.z() + tolerance) {
+    const bool is_taken = depth.others != nullptr && !depth.others->empty() &&
+                          depth.others->at<std::uint8_t>(v, u) != 0;
+    return is_taken ? PointVerdict::kTaken : PointVerdict::kStanding;
+  }
+  return NearestAroundM(image, u, v) > p.z() + tolerance ? PointVerdict::kThrough
+                                                         : PointVerdict::kUnclear;
+}
+
 ExpectedView LookAtPlace(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
                          const DepthSampler& depth, double pose_sigma_m,
                          const ExpectedViewOptions& options) {
   ExpectedView view;
   view.num_samples = static_cast<int>(samples.size());
-  const cv::Mat& image = *depth.depth_mm;
   for (const Eigen::Vector3f& sample : samples) {
     const Eigen::Vector3d p = T_camera_samples * sample.cast<double>();
-    if (p.z() < 0.1 || p.z() > options.max_depth_m || image.empty()) {
-      ++view.num_outside;
-      continue;
-    }
-    Eigen::Vector2d uv = Project(*depth.camera, p);
-    if (depth.is_distorted) uv = Distort(*depth.camera, uv);
-    const int u = static_cast<int>(std::floor(uv.x() / depth.step));
-    const int v = static_cast<int>(std::floor(uv.y() / depth.step));
-    if (!(u >= kBorderPx && v >= kBorderPx && u < image.cols - kBorderPx &&
-          v < image.rows - kBorderPx)) {
-      ++view.num_outside;
-      continue;
-    }
-    const Readings readings = ReadAround(image, u, v);
-    const double tolerance = options.ToleranceM(p.z()) + pose_sigma_m;
-    if (readings.here_m <= 0.0) {
-      ++view.num_unclear;
-    } else if (readings.nearest_m > p.z() + tolerance) {
-      ++view.num_through;
-    } else if (std::abs(readings.here_m - p.z()) <= tolerance) {
-      const bool is_taken = depth.others != nullptr && !depth.others->empty() &&
-                            depth.others->at<std::uint8_t>(v, u) != 0;
-      ++(is_taken ? view.num_taken : view.num_standing);
-    } else if (readings.here_m < p.z()) {
-      ++view.num_hidden;
-    } else {
-      ++view.num_unclear;
+    switch (LookAtPoint(p, depth, pose_sigma_m, options)) {
+      case PointVerdict::kOutside:
+        ++view.num_outside;
+        break;
+      case PointVerdict::kUnclear:
+        ++view.num_unclear;
+        break;
+      case PointVerdict::kHidden:
+        ++view.num_hidden;
+        break;
+      case PointVerdict::kTaken:
+        ++view.num_taken;
+        break;
+      case PointVerdict::kStanding:
+        ++view.num_standing;
+        break;
+      case PointVerdict::kThrough:
+        ++view.num_through;
+        break;
     }
   }
   view.verdict = Judge(view, options);

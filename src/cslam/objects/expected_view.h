@@ -46,9 +46,22 @@ struct DepthSampler {
   const cv::Mat* others = nullptr;
 };
 
+// What a depth image shows where a point is expected.
+enum class PointVerdict : std::uint8_t {
+  kOutside,  // of the picture, or too far
+  kUnclear,  // beside an edge, or no depth
+  kHidden,   // behind something nearer
+  kTaken,    // another thing stands there
+  kStanding,
+  kThrough,
+};
+PointVerdict LookAtPoint(const Eigen::Vector3d& p_camera, const DepthSampler& depth,
+                         double pose_sigma_m, const ExpectedViewOptions& options);
+
 enum class PlaceVerdict : std::uint8_t {
   kUnobserved,     // out of view, hidden, too far, without depth, or neither clearly
   kStanding,       // a surface is where it is expected
+  kTaken,          // ... but for the most part it is that of another thing
   kLookedThrough,  // one sees what is behind it
 };
 

@@ -138,7 +138,7 @@ TEST(LookAtPlace, DoesNotTakeAnotherThingForTheOneItLooksFor) {
 
 TEST(LookAtPlace, DoesNotCallAPlaceEmptyThatAnotherThingFills) {
   const cv::Mat others(120, 160, CV_8UC1, cv::Scalar(255));
-  EXPECT_EQ(Look(WithPanelAt(2.0), {}, 0.0, &others).verdict, PlaceVerdict::kUnobserved);
+  EXPECT_EQ(Look(WithPanelAt(2.0), {}, 0.0, &others).verdict, PlaceVerdict::kTaken);
 }
 
 TEST(LookAtPlace, SkipsSamplesThatAreNoNumbers) {

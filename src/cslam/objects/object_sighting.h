@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cslam/map/map_object.h"
+#include "cslam/objects/colour_histogram.h"
 #include "cslam/objects/depth_region.h"
 #include "cslam/objects/object_classes.h"
 #include "cslam/util/id.h"
@@ -30,12 +30,5 @@ struct ObjectSighting {
 // What things of other kinds cover (CV_8UC1 of the view's size); empty if nothing.
 cv::Mat CoveredByOthers(std::span<const ObjectSighting> sightings, int class_id,
                         const ObjectClasses& classes);
-
-// Of the pixels of bgr (H x W, CV_8UC3, as recorded) that region covers; all 0 without colours.
-// Lens distortion is neglected.
-ColourHistogram ColoursOf(const cv::Mat& bgr, const DepthRegion& region);
-
-// How alike two histograms are: 0 to 1; 0.5 if one is empty.
-double ColourLikeness(const ColourHistogram& a, const ColourHistogram& b);
 
 }  // namespace cslam

@@ -145,8 +145,9 @@ void ObjectWatch::Judge(const ViewedObject& viewed, const WatchedFrame& frame) {
     watched.last_view = frame.stamp;
     return;
   }
-  const bool should_be_named = viewed.expected.verdict == PlaceVerdict::kStanding &&
-                               viewed.expected.num_outside == 0 &&
+  const bool stands_there = viewed.expected.verdict == PlaceVerdict::kStanding ||
+                            viewed.expected.verdict == PlaceVerdict::kTaken;
+  const bool should_be_named = stands_there && viewed.expected.num_outside == 0 &&
                                viewed.centroid_camera.z() < options_.max_miss_depth_m;
   if (should_be_named && has_new_detections_) {
     if (object.state == ObjectState::kCandidate)

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cslam/objects/object_sighting.h"
+#include "cslam/objects/colour_histogram.h"
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include <numeric>
 
@@ -38,7 +39,7 @@ TEST(ColoursOf, LooksInsideTheRegionOnly) {
 
 TEST(ColoursOf, IsEmptyWithoutColoursOrRegion) {
   EXPECT_EQ(ColoursOf({}, LeftHalf()), ColourHistogram{});
-  EXPECT_EQ(ColoursOf(Halves(kRed, kBlue), {}), ColourHistogram{});
+  EXPECT_EQ(ColoursOf(Halves(kRed, kBlue), DepthRegion{}), ColourHistogram{});
 }
 
 TEST(ColoursOf, GivesGreyThingsNoHue) {
@@ -61,6 +62,23 @@ TEST(ColourLikeness, IsUndecidedWithoutColours) {
   const ColourHistogram red = ColoursOf(Halves(kRed, kGrey), LeftHalf());
   EXPECT_DOUBLE_EQ(ColourLikeness(red, {}), 0.5);
   EXPECT_DOUBLE_EQ(ColourLikeness({}, {}), 0.5);
+}
+
+TEST(PixelsOfColours, FindsThoseOfTheThing) {
+  const ColourHistogram red = ColoursOf(Halves(kRed, kGrey), LeftHalf());
+  const cv::Mat found = PixelsOfColours(Halves(kBlue, kRed), red, 0.15F);
+  EXPECT_EQ(cv::countNonZero(found.colRange(0, 320)), 0);
+  EXPECT_EQ(cv::countNonZero(found.colRange(320, 640)), 320 * 480);
+  EXPECT_EQ(cv::countNonZero(PixelsOfColours(Halves(kGrey, kBlue), red, 0.15F)), 0);
+}
+
+TEST(PixelsOfColours, LeavesOutWhatIsRareInTheThing) {
+  cv::Mat picture = Halves(kRed, kGrey);
+  picture.colRange(0, 32).setTo(kBlue);  // a tenth of the region
+  const ColourHistogram colours = ColoursOf(picture, LeftHalf());
+  const cv::Mat blue = Halves(kBlue, kBlue);
+  EXPECT_EQ(cv::countNonZero(PixelsOfColours(blue, colours, 0.15F)), 0);
+  EXPECT_EQ(cv::countNonZero(PixelsOfColours(blue, colours, 0.05F)), 640 * 480);
 }
 
 }  // namespace
