@@ -10,9 +10,9 @@
 #include "cslam/vision/colour_thumbnail.h"
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace cslam::test {
@@ -71,13 +71,18 @@ inline ColourHistogram ColoursWithHue(float hue) {
   return colours;
 }
 
+// Its hue, saturation and value lie in the middle of this bin of theirs.
 inline cv::Vec3b PaintOf(float hue) {
-  const auto bin = static_cast<unsigned char>(hue);
-  const cv::Mat hsv(1, 1, CV_8UC3,
-                    cv::Scalar(bin * 180 / 8 + 11, bin * 256 / 8 + 16, bin * 256 / 8 + 16));
-  cv::Mat bgr;
-  cv::cvtColor(hsv, bgr, cv::COLOR_HSV2BGR);
-  return bgr.at<cv::Vec3b>(0);
+  const auto bin = static_cast<double>(hue);
+  const double sixths = (bin + 0.5) * 6.0 / 8.0;  // of the way around
+  const double value = 32.0 * bin + 16.0;
+  const double saturation = value / 255.0;
+  const auto channel = [&](double n) {
+    const double k = std::fmod(n + sixths, 6.0);
+    const double share = std::clamp(std::min(k, 4.0 - k), 0.0, 1.0);
+    return static_cast<unsigned char>(std::lround(value * (1.0 - saturation * share)));
+  };
+  return {channel(1.0), channel(3.0), channel(5.0)};
 }
 
 inline ThingView LookAtThings(const ThingRoom& room, const Camera& camera,
@@ -103,9 +108,13 @@ inline ThingView LookAtThings(const ThingRoom& room, const Camera& camera,
         }
       }
     }
-    cv::Mat small;
-    cv::resize(mask, small, seen.bgr_small.size(), 0.0, 0.0, cv::INTER_NEAREST);
-    seen.bgr_small.setTo(PaintOf(thing.hue), small);
+    for (int v = 0; v < seen.bgr_small.rows; ++v) {
+      for (int u = 0; u < seen.bgr_small.cols; ++u) {
+        if (mask.at<std::uint8_t>(v * kDepthPerColourPixel, u * kDepthPerColourPixel) != 0) {
+          seen.bgr_small.at<cv::Vec3b>(v, u) = PaintOf(thing.hue);
+        }
+      }
+    }
     if (!thing.is_detected || cv::countNonZero(mask) < 8) continue;
     ObjectSighting sighting;
     sighting.track = thing.track;

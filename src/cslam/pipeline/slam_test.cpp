@@ -11,10 +11,12 @@
 #include <opencv2/core.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
-#include <thread>
 
 namespace cslam {
 namespace {
@@ -75,21 +77,53 @@ std::shared_ptr<const RgbdFrame> Renamed(const RgbdFrame& frame, std::uint32_t i
   return std::make_shared<const RgbdFrame>(std::move(renamed));
 }
 
-// Finds nothing, slowly, and counts how far apart the frames are that it looks at.
+// How far tracking has come, for those who wait for it.
+class Progress : public OutputSink {
+ public:
+  void OnFrame(const TrackingResult& result) override {
+    const std::scoped_lock lock(mutex_);
+    newest_ = result.frame.value();
+    changed_.notify_all();
+  }
+  // How many frames tracking is ahead of one, once that is more than at_least or it takes too long.
+  std::uint32_t WaitUntilAhead(FrameId frame, std::uint32_t at_least,
+                               std::chrono::milliseconds at_most) {
+    std::unique_lock lock(mutex_);
+    const auto ahead = [&] { return newest_ > frame.value() ? newest_ - frame.value() : 0U; };
+    changed_.wait_for(lock, at_most, [&] { return ahead() > at_least; });
+    return ahead();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::uint32_t newest_ = 0;
+};
+
+// Finds nothing, and is done with a frame only once tracking is more than so far ahead of it.
 class SlowDetector : public Detector {
  public:
-  explicit SlowDetector(std::uint32_t& max_gap) : max_gap_(max_gap) {}
+  SlowDetector(std::shared_ptr<Progress> progress, std::uint32_t until_ahead,
+               std::chrono::milliseconds at_most, std::atomic<std::uint32_t>& most_ahead)
+      : progress_(std::move(progress)),
+        until_ahead_(until_ahead),
+        at_most_(at_most),
+        most_ahead_(most_ahead) {}
   Detections Detect(const RgbdFrame& frame) override {
-    std::this_thread::sleep_for(std::chrono::milliseconds(60));
-    max_gap_ = std::max(max_gap_, frame.id.value() - last_);
-    last_ = frame.id.value();
+    const bool is_waited_for = frame.id.value() == 0;
+    if (!is_waited_for) {
+      most_ahead_ =
+          std::max(most_ahead_.load(), progress_->WaitUntilAhead(frame.id, until_ahead_, at_most_));
+    }
     return {frame.id, frame.stamp, {}};
   }
   DetectorInfo info() const override { return {.kind = "slow", .name = "", .source = ""}; }
 
  private:
-  std::uint32_t& max_gap_;
-  std::uint32_t last_ = 0;
+  const std::shared_ptr<Progress> progress_;
+  const std::uint32_t until_ahead_;
+  const std::chrono::milliseconds at_most_;
+  std::atomic<std::uint32_t>& most_ahead_;
 };
 
 class SlamTest : public testing::TestWithParam<Execution> {
@@ -338,32 +372,43 @@ TEST(ThreadedSlam, DropsNothingWhenFedTooFastButToldToWait) {
   EXPECT_EQ(slam.Finish().frames.size(), Frames().frames.size());
 }
 
-TEST(ThreadedSlam, DoesNotRunAheadOfASlowDetectorWhenToldToWait) {
-  constexpr int kMaxAhead = 1;
-  const auto max_gap = [](FeedPolicy policy) {
-    SlamOptions options = SmallOptions();
-    options.detection.live_stride = 1;
-    options.detection.live_max_ahead = kMaxAhead;
-    std::uint32_t gap = 0;
-    Slam slam(Frames().camera, options, Execution::kThreaded, {}, policy,
-              std::make_unique<SlowDetector>(gap));
-    std::uint32_t id = 0;
-    for (int round = 0; round < 4; ++round) {
-      for (const auto& frame : Frames().frames) {
-        slam.Feed(Renamed(*frame, id, Stamp{id * 1'000'000LL + 1}));
-        ++id;
-        if (policy == FeedPolicy::kDropOldest)
-          std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      }
-    }
-    slam.Finish();
-    return gap;
-  };
-  const SlamOptions options = SmallOptions();
-  const int waiting = 1 + options.pipeline.frame_queue + 1;  // tracked, in the queue, fed
-  EXPECT_LE(max_gap(FeedPolicy::kWait), static_cast<std::uint32_t>(1 + kMaxAhead + waiting));
-  EXPECT_GT(max_gap(FeedPolicy::kDropOldest), static_cast<std::uint32_t>(1 + kMaxAhead + waiting))
-      << "a camera does not wait";
+class ThreadedSlamWithSlowDetector : public testing::Test {
+ protected:
+  ThreadedSlamWithSlowDetector() {
+    options_.detection.live_stride = 1;
+    options_.detection.live_max_ahead = 1;
+  }
+  std::unique_ptr<Slam> MakeSlam(FeedPolicy policy, std::chrono::milliseconds at_most) {
+    return std::make_unique<Slam>(
+        Frames().camera, options_, Execution::kThreaded,
+        std::vector<std::shared_ptr<OutputSink>>{progress_}, policy,
+        std::make_unique<SlowDetector>(progress_, kLimit, at_most, most_ahead_));
+  }
+  std::shared_ptr<const RgbdFrame> Frame(std::uint32_t id) const {
+    const auto& frames = Frames().frames;
+    return Renamed(*frames[id % frames.size()], id, Stamp{1 + id * 1'000'000LL});
+  }
+
+  static constexpr std::uint32_t kLimit = 6;  // the two, two in the queue, one on either side of it
+  SlamOptions options_ = SmallOptions();
+  const std::shared_ptr<Progress> progress_ = std::make_shared<Progress>();
+  std::atomic<std::uint32_t> most_ahead_ = 0;
+};
+
+TEST_F(ThreadedSlamWithSlowDetector, DoesNotRunAheadOfItWhenToldToWait) {
+  const auto slam = MakeSlam(FeedPolicy::kWait, std::chrono::milliseconds(50));
+  for (std::uint32_t id = 0; id < 60; ++id)
+    slam->Feed(Frame(id));
+  EXPECT_EQ(slam->Finish().frames.size(), 60U);
+  EXPECT_LE(most_ahead_, kLimit);
+}
+
+TEST_F(ThreadedSlamWithSlowDetector, DoesNotWaitForItWithACamera) {
+  const auto slam = MakeSlam(FeedPolicy::kDropOldest, std::chrono::seconds(2));
+  for (std::uint32_t id = 0; id < 200 && most_ahead_ <= kLimit; ++id)
+    slam->Track(Frame(id));
+  slam->Finish();
+  EXPECT_GT(most_ahead_, kLimit);
 }
 
 }  // namespace
