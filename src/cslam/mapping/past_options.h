@@ -15,8 +15,8 @@ struct PastOptions {
   int min_views = 2;          // keyframes that saw it
   double same_place_m = 0.3;  // from one view's centre to another's
   double min_colour_share = 0.15;
-  double min_likeness = 0.85;   // of its colours to those of the thing that came
-  double max_size_ratio = 1.6;  // and of its size
+  double min_likeness = 0.78;   // of its colours to those of the thing that came
+  double max_size_ratio = 1.8;  // and of its size
   double sure_likeness = 0.93;  // the same of what stood there under another name
   double sure_max_size_ratio = 1.3;
 };
