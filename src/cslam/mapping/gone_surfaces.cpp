@@ -15,10 +15,6 @@
 namespace cslam {
 namespace {
 
-DepthSampler SamplerOf(const KeyframeData& data, const Camera& camera) {
-  return {&data.depth_small_mm, DepthThumbnailStep(camera.width), &camera, camera.HasDistortion()};
-}
-
 // Millimetres at a pixel of the colour thumbnail; 0: none.
 std::uint16_t DepthMm(const KeyframeData& data, int u, int v) {
   return data.depth_small_mm.at<std::uint16_t>(v * kDepthPerColourPixel + 1,
@@ -33,6 +29,7 @@ struct GoneSurfaces::Trace {
   std::vector<Eigen::Vector3f> points;  // camera frame
   Eigen::Vector3d centre_world = Eigen::Vector3d::Zero();
   ColourHistogram colours{};
+  double likeness = 0.0;  // of them to the thing's
 };
 
 GoneSurfaces::GoneSurfaces(const Camera& camera, const ExpectedViewOptions& view,
@@ -55,10 +52,10 @@ Eigen::Vector3d GoneSurfaces::PointAt(const KeyframeData& data, int u, int v) co
 // Earlier keyframes that saw some of what this one sees, spread over time if there are many.
 std::vector<KeyframeId> GoneSurfaces::Overlapping(const MapView& map,
                                                   const Keyframe& keyframe) const {
-  constexpr int kSpacing = 12;  // pixels of the colour thumbnail
-  constexpr double kMinShare = 0.2;
+  constexpr int kSpacing = 12;       // pixels of the colour thumbnail
+  constexpr double kMinShare = 0.2;  // of its readings that must lie in this one's picture
   const Se3 T_camera_world = keyframe.T_world_camera.Inverse();
-  const DepthSampler sampler = SamplerOf(*keyframe.data, camera_);
+  const DepthSampler sampler = ThumbnailSampler(keyframe.data->depth_small_mm, camera_);
   std::vector<KeyframeId> found;
   for (const KeyframeId id : map.Keyframes()) {
     if (!(id < keyframe.id)) break;
@@ -97,9 +94,7 @@ bool GoneSurfaces::LookThrough(const MapView& map, KeyframeId id) {
     const Keyframe& other = *map.FindKeyframe(other_id);
     const cv::Size size = other.data->bgr_small.size();
     cv::Mat& looks = num_looks_.try_emplace(other_id, size, CV_8UC1, cv::Scalar(0)).first->second;
-    const int num_gone = cv::countNonZero(looks >= options_.min_looks);
-    Compare(other, keyframe, looks);
-    has_news = has_news || cv::countNonZero(looks >= options_.min_looks) > num_gone;
+    has_news = Compare(other, keyframe, looks) || has_news;
   }
   return has_news;
 }
@@ -111,10 +106,11 @@ PointVerdict GoneSurfaces::Look(const Keyframe& earlier, const Se3& T_later_earl
 }
 
 // Of each cell the reading in its middle tells whether it, and what is around it, is worth a look.
-void GoneSurfaces::Compare(const Keyframe& earlier, const Keyframe& later, cv::Mat& looks) const {
+// Returns whether anything counts as gone that did not before.
+bool GoneSurfaces::Compare(const Keyframe& earlier, const Keyframe& later, cv::Mat& looks) const {
   constexpr int kCell = 3;
   const Se3 T_later_earlier = later.T_world_camera.Inverse() * earlier.T_world_camera;
-  const DepthSampler sampler = SamplerOf(*later.data, camera_);
+  const DepthSampler sampler = ThumbnailSampler(later.data->depth_small_mm, camera_);
   cv::Mat cells(looks.size() / kCell, CV_8UC1, cv::Scalar(0));
   for (int v = 0; v < cells.rows; ++v) {
     for (int u = 0; u < cells.cols; ++u) {
@@ -125,16 +121,19 @@ void GoneSurfaces::Compare(const Keyframe& earlier, const Keyframe& later, cv::M
     }
   }
   cv::dilate(cells, cells, cv::Mat());
+  bool has_news = false;
   for (int v = 0; v < cells.rows * kCell; ++v) {
     for (int u = 0; u < cells.cols * kCell; ++u) {
       if (cells.at<std::uint8_t>(v / kCell, u / kCell) == 0) continue;
       auto& count = looks.at<std::uint8_t>(v, u);
       const PointVerdict verdict = Look(earlier, T_later_earlier, u, v, sampler);
       if (verdict == PointVerdict::kStanding) count = 0;
-      if (verdict == PointVerdict::kThrough && count < std::numeric_limits<std::uint8_t>::max())
-        ++count;
+      if (verdict != PointVerdict::kThrough || count == std::numeric_limits<std::uint8_t>::max())
+        continue;
+      has_news = ++count == options_.min_looks || has_news;
     }
   }
+  return has_news;
 }
 
 std::vector<GoneSurfaces::Trace> GoneSurfaces::TracesIn(const Keyframe& keyframe,
@@ -150,7 +149,10 @@ std::vector<GoneSurfaces::Trace> GoneSurfaces::TracesIn(const Keyframe& keyframe
   for (int label = 1; label < num_labels; ++label) {
     const cv::Mat mask = labels == label;
     if (cv::countNonZero(mask) < options_.min_pixels) continue;
-    Trace trace{keyframe.id, {}, {}, ColoursOf(keyframe.data->bgr_small, mask)};
+    Trace trace;
+    trace.keyframe = keyframe.id;
+    trace.colours = ColoursOf(keyframe.data->bgr_small, mask);
+    trace.likeness = ColourLikeness(trace.colours, object.colours);
     for (int v = 0; v < mask.rows; ++v) {
       for (int u = 0; u < mask.cols; ++u) {
         if (mask.at<std::uint8_t>(v, u) == 0) continue;
@@ -164,6 +166,7 @@ std::vector<GoneSurfaces::Trace> GoneSurfaces::TracesIn(const Keyframe& keyframe
 }
 
 // Of another thing of its kind, that is known to have stood there: then it is known what that did.
+// Traces may be of different ends of it, each same_place from its middle.
 bool GoneSurfaces::IsOfOther(const MapView& map, const Trace& trace, const MapObject& object,
                              const ObjectClasses& classes) const {
   for (const ObjectId id : map.Objects()) {
@@ -187,24 +190,22 @@ void GoneSurfaces::CountLater(const MapView& map, PastPlace& place) const {
       continue;
     const ExpectedView view =
         LookAtPlace(place.points, keyframe.T_world_camera.Inverse() * reference.T_world_camera,
-                    SamplerOf(*keyframe.data, camera_), 0.0, view_);
+                    ThumbnailSampler(keyframe.data->depth_small_mm, camera_), 0.0, view_);
     if (view.verdict != PlaceVerdict::kLookedThrough) continue;
     if (place.num_through++ == 0) place.first_through = keyframe.data->stamp;
   }
 }
 
-bool GoneSurfaces::LooksLike(const MapView& map, const Trace& trace, const MapObject& object,
+bool GoneSurfaces::IsAsLarge(const MapView& map, const Trace& trace, const MapObject& object,
                              const Eigen::Vector3d& up_world) const {
-  if (ColourLikeness(trace.colours, object.colours) < options_.min_likeness) return false;
   const Eigen::Vector3d up =
       map.FindKeyframe(trace.keyframe)->T_world_camera.R().transpose() * up_world;
-  const double ratio = MiddleSideM(BoxAround(trace.points, up)) / MiddleSideM(object.box);
-  return ratio <= options_.max_size_ratio && ratio >= 1.0 / options_.max_size_ratio;
+  return SizeRatio(BoxAround(trace.points, up), object.box) <= options_.max_size_ratio;
 }
 
-std::optional<PastPlace> GoneSurfaces::FindPast(const MapView& map, const MapObject& object,
-                                                const ObjectClasses& classes,
-                                                const Eigen::Vector3d& up_world) const {
+// All of before it came that may have been it, but for their size: pieces tell where it stood, too.
+std::vector<GoneSurfaces::Trace> GoneSurfaces::TracesOf(const MapView& map, const MapObject& object,
+                                                        const ObjectClasses& classes) const {
   std::vector<Trace> traces;
   for (const auto& [id, looks] : num_looks_) {
     const Keyframe* keyframe = map.FindKeyframe(id);
@@ -216,26 +217,38 @@ std::optional<PastPlace> GoneSurfaces::FindPast(const MapView& map, const MapObj
       if (!IsOfOther(map, trace, object, classes)) traces.push_back(std::move(trace));
     }
   }
-  const auto is_near = [&](const Trace& a, const Trace& b) {
-    return (a.centre_world - b.centre_world).norm() <= options_.same_place_m;
-  };
+  return traces;
+}
+
+// As one of its traces shows it; the others tell when it was seen there.
+PastPlace GoneSurfaces::PlaceOf(const Trace& trace, const std::vector<Trace>& all) const {
+  PastPlace place;
+  place.reference = place.first_keyframe = place.last_keyframe = trace.keyframe;
+  place.points = trace.points;
+  place.colours = trace.colours;
+  for (const Trace& other : all) {
+    if ((trace.centre_world - other.centre_world).norm() > options_.same_place_m) continue;
+    ++place.num_views;
+    place.first_keyframe = std::min(place.first_keyframe, other.keyframe);
+    place.last_keyframe = std::max(place.last_keyframe, other.keyframe);
+  }
+  return place;
+}
+
+std::optional<PastPlace> GoneSurfaces::FindPast(const MapView& map, const MapObject& object,
+                                                const ObjectClasses& classes,
+                                                const Eigen::Vector3d& up_world) const {
+  const std::vector<Trace> traces = TracesOf(map, object, classes);
   std::optional<PastPlace> best;
   double best_likeness = 0.0;
   for (const Trace& trace : traces) {
-    const double likeness = ColourLikeness(trace.colours, object.colours);
-    if (likeness <= best_likeness || !LooksLike(map, trace, object, up_world)) continue;
-    PastPlace place;
-    place.reference = place.first_keyframe = place.last_keyframe = trace.keyframe;
-    place.points = trace.points;
-    place.colours = trace.colours;
-    for (const Trace& other : traces) {
-      if (!is_near(trace, other)) continue;
-      ++place.num_views;
-      place.first_keyframe = std::min(place.first_keyframe, other.keyframe);
-      place.last_keyframe = std::max(place.last_keyframe, other.keyframe);
+    if (trace.likeness < options_.min_likeness || trace.likeness <= best_likeness ||
+        !IsAsLarge(map, trace, object, up_world)) {
+      continue;
     }
+    PastPlace place = PlaceOf(trace, traces);
     if (place.num_views < options_.min_views) continue;
-    best_likeness = likeness;
+    best_likeness = trace.likeness;
     best = std::move(place);
   }
   if (best) CountLater(map, *best);

@@ -43,12 +43,15 @@ class GoneSurfaces {
   std::vector<KeyframeId> Overlapping(const MapView& map, const Keyframe& keyframe) const;
   std::vector<Trace> TracesIn(const Keyframe& keyframe, const cv::Mat& looks,
                               const MapObject& object) const;
-  bool LooksLike(const MapView& map, const Trace& trace, const MapObject& object,
+  bool IsAsLarge(const MapView& map, const Trace& trace, const MapObject& object,
                  const Eigen::Vector3d& up_world) const;
+  std::vector<Trace> TracesOf(const MapView& map, const MapObject& object,
+                              const ObjectClasses& classes) const;
+  PastPlace PlaceOf(const Trace& trace, const std::vector<Trace>& all) const;
   bool IsOfOther(const MapView& map, const Trace& trace, const MapObject& object,
                  const ObjectClasses& classes) const;
   void CountLater(const MapView& map, PastPlace& place) const;
-  void Compare(const Keyframe& earlier, const Keyframe& later, cv::Mat& looks) const;
+  bool Compare(const Keyframe& earlier, const Keyframe& later, cv::Mat& looks) const;
   PointVerdict Look(const Keyframe& earlier, const Se3& T_later_earlier, int u, int v,
                     const DepthSampler& later) const;
   Eigen::Vector3d PointAt(const KeyframeData& data, int u, int v) const;

@@ -106,22 +106,18 @@ ChangeList::ChangeList(const Camera& camera, const MapObjectOptions& options,
                        const ObjectClasses& classes)
     : camera_(camera), options_(options), classes_(classes) {}
 
-// Sizes are compared by the middle one of the sides: the least is often hardly seen, and the
-// greatest is the first to take in something that is not the thing.
 bool ChangeList::LooksLike(const MapObject& a, const MapObject& b) const {
   if (!classes_.AreAlike(a.class_id, b.class_id)) return false;
   const double likeness = ColourLikeness(a.colours, b.colours);
   if (likeness < options_.min_likeness) return false;
-  const double ratio = MiddleSideM(a.box) / MiddleSideM(b.box);
-  const double max_ratio =
-      likeness >= options_.sure_likeness ? options_.sure_max_size_ratio : options_.max_size_ratio;
-  return ratio <= max_ratio && ratio >= 1.0 / max_ratio;
+  return SizeRatio(a.box, b.box) <= (likeness >= options_.sure_likeness
+                                         ? options_.sure_max_size_ratio
+                                         : options_.max_size_ratio);
 }
 
 bool ChangeList::LooksTheSame(const MapObject& a, const MapObject& b) const {
-  const double ratio = MiddleSideM(a.box) / MiddleSideM(b.box);
   return ColourLikeness(a.colours, b.colours) >= options_.past.sure_likeness &&
-         std::max(ratio, 1.0 / ratio) <= options_.past.sure_max_size_ratio;
+         SizeRatio(a.box, b.box) <= options_.past.sure_max_size_ratio;
 }
 
 // What was seen while the other was there is neither the same nor in its place. Unless it was only
@@ -367,31 +363,6 @@ bool ChangeList::MayTurnUp(const MapView& map, ObjectId gone) const {
 bool ChangeList::MayComeFrom(const MapObject& object, const MapObject& origin) const {
   return origin.map == object.map && LooksLike(origin, object) &&
          origin.last_keyframe < object.arrived_keyframe;
-}
-
-void ChangeList::OnOriginFound(Map& map, ObjectId origin_id, ObjectId id, Stamp now,
-                               int num_views) const {
-  const MapObject& origin = *map.FindObject(origin_id);
-  std::vector<MapChange> changes = map.changes();
-  MapChange moved;
-  moved.kind = MapChangeKind::kRemoved;
-  moved.object = origin_id;
-  moved.last_seen_there = origin.last_seen;
-  moved.first_seen_absent = origin.absent_since;
-  moved.reported = now;
-  moved.num_absent_views = num_views;
-  for (const MapChange& change : changes) {
-    if (!IsSingle(change, MapChangeKind::kAdded) || change.object != id) continue;
-    moved.is_between_sessions = change.is_between_sessions;
-    if (Join(map, moved, MapChange(change))) break;
-  }
-  if (moved.kind != MapChangeKind::kMoved) return;
-  std::erase_if(changes, [&](const MapChange& change) {
-    return (change.object == id && IsSingle(change, MapChangeKind::kAdded)) ||
-           (change.object == origin_id && IsSingle(change, MapChangeKind::kRemoved));
-  });
-  changes.push_back(moved);
-  map.SetChanges(std::move(changes));
 }
 
 void ChangeList::OnMistake(Map& map, ObjectId object) const {

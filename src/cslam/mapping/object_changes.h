@@ -43,9 +43,6 @@ class ChangeList {
   // Whether the object may have been the origin, a thing that has gone.
   bool MayComeFrom(const MapObject& object, const MapObject& origin) const;
 
-  // The object, told to have come, is what was the origin.
-  void OnOriginFound(Map& map, ObjectId origin, ObjectId object, Stamp now, int num_views) const;
-
   // The object never was: it did not come, nor is it what anything turned into.
   void OnMistake(Map& map, ObjectId object) const;
 

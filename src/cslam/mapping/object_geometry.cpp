@@ -278,6 +278,11 @@ double MiddleSideM(const OrientedBox& box) {
   return std::max(size[1], 0.01);
 }
 
+double SizeRatio(const OrientedBox& a, const OrientedBox& b) {
+  const double ratio = MiddleSideM(a) / MiddleSideM(b);
+  return std::max(ratio, 1.0 / ratio);
+}
+
 Eigen::Vector3d MeanOf(std::span<const Eigen::Vector3f> points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3f& p : points)

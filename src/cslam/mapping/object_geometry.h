@@ -43,6 +43,9 @@ OrientedBox BoxAround(std::span<const Eigen::Vector3f> points, const Eigen::Vect
 // and the greatest is the first to take in something that is not the thing.
 double MiddleSideM(const OrientedBox& box);
 
+// How many times as large the larger one is as the other, by these sides.
+double SizeRatio(const OrientedBox& a, const OrientedBox& b);
+
 // points not empty.
 Eigen::Vector3d MeanOf(std::span<const Eigen::Vector3f> points);
 

@@ -77,7 +77,6 @@ MapObject ObjectGrowth::AtPastPlace(const Map& map, const MapObject& object, con
   past.map = object.map;
   past.state = ObjectState::kAbsent;
   past.class_id = object.class_id;
-  past.votes = object.votes;
   past.log_odds = LogOdds(options_.belief.absent_at);
   past.reference = place.reference;
   ObjectSurface surface;

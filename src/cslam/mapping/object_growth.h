@@ -14,10 +14,6 @@ class ObjectGrowth {
  public:
   ObjectGrowth(const MapObjectOptions& options, const ObjectClasses& classes);
 
-  // The object as it stood at an earlier place, which it has left.
-  MapObject AtPastPlace(const Map& map, const MapObject& object, const PastPlace& place,
-                        const Eigen::Vector3d& up_world) const;
-
   // A candidate without surface yet. The keyframe is the map's.
   MapObject Begin(const Map& map, MapId map_id, const KeyframeProposal& proposal,
                   const PlacedSighting& sighting) const;
@@ -25,6 +21,11 @@ class ObjectGrowth {
   // The object with one more sighting. up_world: unit vector.
   MapObject WithSighting(const Map& map, MapObject object, const KeyframeProposal& proposal,
                          const PlacedSighting& sighting, const Eigen::Vector3d& up_world) const;
+
+  // The object as it stood at an earlier place, which it has left; without votes, for nobody
+  // called it anything there.
+  MapObject AtPastPlace(const Map& map, const MapObject& object, const PastPlace& place,
+                        const Eigen::Vector3d& up_world) const;
 
   // The object with centroid and box of its surface (or, as the paper has it, of its points).
   MapObject Measured(const Map& map, MapObject object, const Eigen::Vector3d& up_world) const;

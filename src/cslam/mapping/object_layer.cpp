@@ -72,10 +72,10 @@ ObjectLayer::ObjectLayer(const Camera& camera, const DepthOptions& depth,
       belief_update_(BeliefUpdateOf(options.objects)),
       growth_(options_.objects, classes_),
       changes_(camera_, options_.objects, classes_),
-      gone_(camera_, options_.objects.view, options_.objects.past) {}
+      origins_(camera_, options_.objects, classes_, growth_, changes_) {}
 
 void ObjectLayer::Reset() {
-  gone_.Reset();
+  origins_.Reset();
   objects_of_tracks_.clear();
   strays_.clear();
   up_sum_.clear();
@@ -136,7 +136,7 @@ ObjectLayerReport ObjectLayer::Update(Map& map, const KeyframeProposal& proposal
   const std::vector<PointId> points = map.FindKeyframe(proposal.id)->points;
   AssignPoints(map, proposal.id, points);
   report.num_changed += MergeDoubles(map, seen, proposal.data->stamp);
-  FindOrigins(map, proposal);
+  origins_.Update(map, proposal.id, UpWorld());
   return report;
 }
 
@@ -299,68 +299,6 @@ void ObjectLayer::SweepLeftPlaces(Map& map, const KeyframeProposal& proposal) co
     const double since_s = SecondsBetween(proposal.data->stamp, *object.absent_since);
     if (since_s >= 0.0 && since_s <= options_.objects.sweep_for_s)
       SweepPlace(map, id, proposal, options_.objects);
-  }
-}
-
-// Whether a known thing like it, that nobody has seen since it came, may have been it.
-bool ObjectLayer::MayHaveMovedUnseen(const Map& map, const MapObject& object) const {
-  const std::vector<ObjectId> all = map.Objects();
-  return std::any_of(all.begin(), all.end(), [&](ObjectId id) {
-    const MapObject& other = *map.FindObject(id);
-    return id != object.id && other.state == ObjectState::kPresent &&
-           other.last_seen < object.first_seen && changes_.MayComeFrom(object, other);
-  });
-}
-
-// What stood at the origin, as large and of the same colours, but under another name.
-std::optional<ObjectId> ObjectLayer::CalledOtherwise(const Map& map, const MapObject& origin,
-                                                     const MapObject& object) const {
-  const Eigen::Vector3d place = map.CentroidOf(origin);
-  for (const ObjectId id : map.Objects()) {
-    const MapObject& other = *map.FindObject(id);
-    if (other.map != origin.map || other.state == ObjectState::kCandidate ||
-        classes_.AreAlike(other.class_id, object.class_id) ||
-        (map.CentroidOf(other) - place).norm() > options_.objects.past.same_place_m) {
-      continue;
-    }
-    MapObject renamed = other;
-    renamed.class_id = object.class_id;
-    if (changes_.MayTurnUp(map, id) && changes_.LooksTheSame(object, other) &&
-        changes_.MayComeFrom(object, renamed)) {
-      return id;
-    }
-  }
-  return std::nullopt;
-}
-
-// What came from nowhere may have stood somewhere without a name, or under another one.
-void ObjectLayer::FindOrigins(Map& map, const KeyframeProposal& proposal) {
-  const bool has_news = gone_.LookThrough(map, proposal.id);
-  for (const ObjectId id : changes_.CameFromNowhere(map)) {
-    const MapObject object = *map.FindObject(id);
-    if (object.map != map_id_ || object.state != ObjectState::kPresent ||
-        (!has_news && object.last_keyframe != proposal.id) || MayHaveMovedUnseen(map, object)) {
-      continue;
-    }
-    const auto place = gone_.FindPast(map, object, classes_, UpWorld());
-    if (!place) continue;
-    MapObject origin = growth_.AtPastPlace(map, object, *place, UpWorld());
-    if (!changes_.MayComeFrom(object, origin)) continue;
-    ObjectId origin_id;
-    if (const auto known = CalledOtherwise(map, origin, object)) {
-      origin_id = *known;
-      origin = *map.FindObject(origin_id);
-      origin.class_id = object.class_id;
-      origin.votes = object.votes;
-      origin.state = ObjectState::kAbsent;
-      origin.is_active = false;
-      origin.log_odds = std::min(origin.log_odds, LogOdds(options_.objects.belief.absent_at));
-      if (!origin.absent_since) origin.absent_since = place->first_through;
-      map.SetObject(std::move(origin));
-    } else {
-      origin_id = map.AddObject(std::move(origin));
-    }
-    changes_.OnOriginFound(map, origin_id, id, proposal.data->stamp, place->num_through);
   }
 }
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cslam/mapping/gone_surfaces.h"
 #include "cslam/mapping/mapper_options.h"
 #include "cslam/mapping/object_association.h"
 #include "cslam/mapping/object_changes.h"
 #include "cslam/mapping/object_growth.h"
+#include "cslam/mapping/object_origins.h"
 #include "cslam/messages/messages.h"
 #include "cslam/vision/measurement_model.h"
 
@@ -57,10 +57,6 @@ class ObjectLayer {
   void JudgeArrival(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   void Activate(Map& map, ObjectId id) const;
   void SweepLeftPlaces(Map& map, const KeyframeProposal& proposal) const;
-  bool MayHaveMovedUnseen(const Map& map, const MapObject& object) const;
-  std::optional<ObjectId> CalledOtherwise(const Map& map, const MapObject& origin,
-                                          const MapObject& object) const;
-  void FindOrigins(Map& map, const KeyframeProposal& proposal);
   int DisplaceOthers(Map& map, ObjectId id, const KeyframeProposal& proposal) const;
   int MergeDoubles(Map& map, std::span<const ObjectId> seen, Stamp now);
   Eigen::Vector3d UpWorld() const;
@@ -74,7 +70,7 @@ class ObjectLayer {
   const ObjectGrowth growth_;
   const ChangeList changes_;
 
-  GoneSurfaces gone_;
+  ObjectOrigins origins_;
   TrackObjects objects_of_tracks_;           // as seen last
   std::map<TrackId, int> strays_;            // keyframes in a row that saw it elsewhere
   std::map<MapId, Eigen::Vector3d> up_sum_;  // of the cameras' upward axes, world

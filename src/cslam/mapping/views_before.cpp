@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/mapping/views_before.h"
 
-#include "cslam/vision/depth_thumbnail.h"
-
 namespace cslam {
 namespace {
 
@@ -29,10 +27,9 @@ ViewsBefore LookBack(const MapView& map, const MapObject& object, const Camera& 
     if (keyframe.map != object.map || keyframe.data->depth_small_mm.empty()) continue;
     const Se3 T_camera_object = keyframe.T_world_camera.Inverse() * T_world_object;
     if (!IsInOrBesidePicture(T_camera_object * object.centroid, camera)) continue;
-    const DepthSampler sampler{&keyframe.data->depth_small_mm, DepthThumbnailStep(camera.width),
-                               &camera, camera.HasDistortion()};
     const ExpectedView view =
-        LookAtPlace(object.surface->samples, T_camera_object, sampler, 0.0, options);
+        LookAtPlace(object.surface->samples, T_camera_object,
+                    ThumbnailSampler(keyframe.data->depth_small_mm, camera), 0.0, options);
     if (view.verdict == PlaceVerdict::kStanding) ++before.num_standing;
     if (view.verdict != PlaceVerdict::kLookedThrough) continue;
     ++before.num_through;

@@ -3,6 +3,7 @@
 #include "cslam/objects/expected_view.h"
 
 #include "cslam/util/options.h"
+#include "cslam/vision/depth_thumbnail.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +73,10 @@ void Describe(OptionList& list, ExpectedViewOptions& o) {
            "... if another thing stands on the rest of it: it was replaced.");
   list.Add("min_standing", o.min_standing_share, {0.0, 1.0}, "",
            "Share of that which must be there for the place to be taken.");
+}
+
+DepthSampler ThumbnailSampler(const cv::Mat& depth_small_mm, const Camera& camera) {
+  return {&depth_small_mm, DepthThumbnailStep(camera.width), &camera, camera.HasDistortion()};
 }
 
 PointVerdict LookAtPoint(const Eigen::Vector3d& p, const DepthSampler& depth, double pose_sigma_m,

@@ -46,6 +46,9 @@ struct DepthSampler {
   const cv::Mat* others = nullptr;
 };
 
+// Of a keyframe's depth thumbnail: as recorded.
+DepthSampler ThumbnailSampler(const cv::Mat& depth_small_mm, const Camera& camera);
+
 // What a depth image shows where a point is expected.
 enum class PointVerdict : std::uint8_t {
   kOutside,  // of the picture, or too far
