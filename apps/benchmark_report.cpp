@@ -130,7 +130,7 @@ std::string_view NameOf(BenchmarkDetector detector) {
 void AddFacts(const BenchmarkArguments& arguments, BenchmarkResult& result) {
   const HostInfo host = DescribeHost();
   auto& facts = result.facts;
-  facts.emplace_back("program", fmt::format("changing-slam {} ({})", Version(), GitCommit()));
+  facts.emplace_back("program", ProgramName());
   facts.emplace_back("host", fmt::format("{}, {} cores", host.cpu, host.num_cpus));
   facts.emplace_back("detector", std::string(NameOf(arguments.detector)));
   if (!arguments.model.empty()) facts.emplace_back("model", arguments.model);

@@ -52,6 +52,10 @@ RenderArguments RenderOf(const BenchmarkArguments& arguments, const PlannedData&
   return render;
 }
 
+RenderingState StateOf(const RenderArguments& render, const PlannedData& data) {
+  return StateOf(data, render.request, ProgramName());
+}
+
 std::vector<std::string> RunWords(const BenchmarkArguments& arguments, const PlannedRun& run,
                                   const PlannedData& data) {
   std::vector<std::string> words{"run", data.folder.string(), "--out", run.folder.string()};
@@ -102,11 +106,14 @@ Outlook LookAhead(const BenchmarkArguments& arguments, const BenchmarkPlan& plan
   Outlook outlook;
   std::map<std::string, RenderEstimate> estimates;
   for (const PlannedData& data : plan.data) {
-    if (IsRendered(data) || InterruptRequested()) continue;
+    RenderArguments render = RenderOf(arguments, data);
+    const RenderingState state = StateOf(render, data);
+    if (state == RenderingState::kComplete || InterruptRequested()) continue;
     ++outlook.renderings;
     if (!estimates.contains(data.sequence)) {
       fmt::print(stderr, "a few frames of '{}', to know how long it will take\n", data.sequence);
-      estimates[data.sequence] = EstimateRendering(RenderOf(arguments, data));
+      if (state == RenderingState::kOutdated) render.existing = ExistingFolder::kReplace;
+      estimates[data.sequence] = EstimateRendering(render);
     }
     const RenderEstimate& estimate = estimates.at(data.sequence);
     outlook.render_s += estimate.seconds;
@@ -138,9 +145,12 @@ void Announce(const Outlook& outlook, const BenchmarkPlan& plan, const fs::path&
 bool RenderAll(const BenchmarkArguments& arguments, const BenchmarkPlan& plan) {
   for (const PlannedData& data : plan.data) {
     if (InterruptRequested()) return false;
-    if (IsRendered(data)) continue;
+    RenderArguments render = RenderOf(arguments, data);
+    const RenderingState state = StateOf(render, data);
+    if (state == RenderingState::kComplete) continue;
+    if (state == RenderingState::kOutdated) render.existing = ExistingFolder::kReplace;
     fs::create_directories(data.folder.parent_path());
-    if (RenderSequences(RenderOf(arguments, data)) != kExitOk) return false;
+    if (RenderSequences(render) != kExitOk) return false;
   }
   return true;
 }

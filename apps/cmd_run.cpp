@@ -131,7 +131,7 @@ std::string UtcNow() {
 MapFileInfo InfoOfMap(const RunCommand& command, const CameraConfig& camera,
                       const SlamOptions& options, const std::optional<SavedMap>& earlier) {
   MapFileInfo info;
-  info.program = fmt::format("changing-slam {} ({})", Version(), GitCommit());
+  info.program = ProgramName();
   if (!command.is_deterministic) info.created = UtcNow();
   info.camera = camera;
   info.level_scales = LevelScales(options.tracking.orb);

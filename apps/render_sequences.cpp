@@ -183,7 +183,7 @@ WriteOutcome Write(const Rendering& rendering, const Task& task, const RenderArg
 
 Rendering Describe(const Task& task, const RenderArguments& arguments, const Stage& stage) {
   Rendering rendering = MakeRendering(task.entry, arguments.request, stage);
-  rendering.record.program = fmt::format("changing-slam {} ({})", Version(), GitCommit());
+  rendering.record.program = ProgramName();
   rendering.record.command = CommandOf(rendering.record);
   return rendering;
 }
@@ -212,7 +212,7 @@ RenderEstimate Estimate(const Task& task, const RenderArguments& arguments,
   const Rendering rendering = Describe(task, arguments, stage);
   RenderEstimate estimate;
   estimate.num_frames = rendering.sequence.size();
-  PrepareSequenceFolder(task.folder, rendering.record, ExistingFolder::kResume);
+  PrepareSequenceFolder(task.folder, rendering.record, arguments.existing);
   const double frame_bytes = MeasureFrameBytes(rendering.sequence, task.folder, kNumWeighed);
   const double frame_s = MeasureFrameSeconds(rendering.sequence, task.folder);
   estimate.bytes = kOtherBytes + estimate.num_frames * frame_bytes;

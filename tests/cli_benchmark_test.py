@@ -79,6 +79,11 @@ class FinishedTest(CliTestCase):
         self.assertIn("--yes", result.stderr)
 
 
+    def test_does_not_pass_another_rendering_off_as_what_was_asked_for(self):
+        result = run("benchmark", "--out", self.folder, *TINY[:-6], "--frames", "10")
+        self.assert_one_line_error(result, 1, "the number of frames is 20 there, 10 was asked for")
+
+
 class BenchmarkTest(CliTestCase):
     def setUp(self):
         self.folder = self.make_folder() / "bench"
@@ -89,6 +94,16 @@ class BenchmarkTest(CliTestCase):
         self.assertIn("--yes", result.stderr)
         self.assertFalse((self.folder / "runs").exists())
         self.assertFalse((self.folder / "report.md").exists())
+
+    def test_renders_anew_what_another_version_began(self):
+        benchmark(self.folder)
+        record = self.folder / "data" / "sitting_xyz-short-1" / "render.json"
+        begun = json.loads(record.read_text(encoding="utf-8"))
+        record.write_text(json.dumps(begun | {"program": "an older one"}), encoding="utf-8")
+        result = benchmark(self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(json.loads(record.read_text(encoding="utf-8"))["program"],
+                         begun["program"])
 
     def test_goes_on_after_an_interruption(self):
         command = [binary(), "benchmark", "--out", self.folder, *TINY, "--yes"]

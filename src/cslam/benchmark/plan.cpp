@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/benchmark/plan.h"
 
-#include "cslam/dataset/rendering.h"
+#include "cslam/dataset/render_record.h"
 #include "cslam/dataset/sequence_folder.h"
 #include "cslam/io/json_reader.h"
 #include "cslam/util/check.h"
@@ -23,6 +23,26 @@ std::vector<std::string> AllNames() {
   for (const SequenceEntry& entry : AllSequences())
     names.emplace_back(entry.name);
   return names;
+}
+
+// As it is there, but with the parameters that were asked for.
+RenderRecord Wanted(RenderRecord record, const PlannedData& data, const RenderRequest& request) {
+  const auto entries = AllSequences();
+  const auto entry = std::find_if(entries.begin(), entries.end(), [&](const SequenceEntry& one) {
+    return one.name == data.sequence;
+  });
+  CSLAM_CHECK(entry != entries.end());
+  record.sequence = data.sequence;
+  record.seed = data.seed;
+  record.width_px = request.width;
+  record.height_px = request.height;
+  record.fps = request.fps;
+  record.num_frames = CountFrames(*entry, request);
+  record.noise = NoiseOf(*entry, request);
+  record.is_short = request.is_short;
+  record.without_people = request.without_people;
+  record.without = request.without;
+  return record;
 }
 
 }  // namespace
@@ -76,8 +96,20 @@ BenchmarkPlan MakePlan(const BenchmarkRequest& request) {
   return plan;
 }
 
-bool IsRendered(const PlannedData& data) {
-  return std::filesystem::exists(data.folder / kCameraFile);
+RenderingState StateOf(const PlannedData& data, const RenderRequest& request,
+                       std::string_view program) {
+  const bool is_complete = std::filesystem::exists(data.folder / kCameraFile);
+  const std::filesystem::path file = data.folder / kRenderFile;
+  if (!std::filesystem::exists(file))
+    return is_complete ? RenderingState::kComplete : RenderingState::kUnfinished;
+  const RenderRecord there = ReadRenderRecord(file);
+  const auto differences = Differences(there, Wanted(there, data, request));
+  if (!differences.empty()) {
+    throw Error("'{}' holds another rendering: {}; choose another folder, or delete it",
+                data.folder.string(), fmt::join(differences, ", "));
+  }
+  if (is_complete) return RenderingState::kComplete;
+  return there.program == program ? RenderingState::kUnfinished : RenderingState::kOutdated;
 }
 
 bool IsRunDone(const std::filesystem::path& folder, std::string_view commit,

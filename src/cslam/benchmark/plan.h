@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/dataset/rendering.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -57,8 +59,16 @@ std::vector<std::string> ResolveSequences(const std::vector<std::string>& names)
 // request.sequences must be resolved. Renderings lie in <folder>/data, runs in <folder>/runs.
 BenchmarkPlan MakePlan(const BenchmarkRequest& request);
 
-// Whether a rendering is complete.
-bool IsRendered(const PlannedData& data);
+// What the folder of a rendering holds.
+enum class RenderingState {
+  kUnfinished,  // nothing yet, or a beginning that can be gone on with
+  kOutdated,    // a beginning by another version of the program, whose pictures may differ
+  kComplete,    // by whatever version
+};
+
+// request: what was asked for. Throws Error if the folder holds a rendering of something else.
+RenderingState StateOf(const PlannedData& data, const RenderRequest& request,
+                       std::string_view program);
 
 // Whether a run folder is complete and of a run of this program (commit) with these arguments.
 bool IsRunDone(const std::filesystem::path& folder, std::string_view commit,

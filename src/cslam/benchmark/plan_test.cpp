@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cslam/benchmark/plan.h"
 
+#include "cslam/dataset/render_record.h"
+#include "cslam/dataset/sequence_folder.h"
 #include "cslam/util/check.h"
 #include "cslam/util/test_folder.h"
 
@@ -39,6 +41,50 @@ TEST(MakePlan, RunsEveryRenderingWithEachLayerAsOftenAsAsked) {
   EXPECT_EQ(plan.runs[0].folder, "b/runs/static-short-7-objects_on-1");
   EXPECT_EQ(plan.runs[1].folder, "b/runs/static-short-7-objects_off-1");
   EXPECT_EQ(plan.Sequences(), (std::vector<std::string>{"static", "shift"}));
+}
+
+class RenderingStateTest : public testing::Test {
+ protected:
+  RenderingStateTest() {
+    request_.num_frames = 20;
+    request_.is_short = true;
+    RenderRecord record;
+    record.sequence = data_.sequence;
+    record.seed = data_.seed;
+    record.program = "program 1";
+    record.is_short = true;
+    record.width_px = 640;
+    record.height_px = 480;
+    record.fps = 30.0;
+    record.num_frames = 20;
+    record.noise = SensorNoise::kD435i;
+    WriteRenderRecord(folder_.path() / kRenderFile, record);
+  }
+  RenderingState State(std::string_view program) const { return StateOf(data_, request_, program); }
+
+  const TestFolder folder_;
+  const PlannedData data_{"static", 3, folder_.path()};
+  RenderRequest request_;
+};
+
+TEST_F(RenderingStateTest, GoesOnWithWhatTheSameProgramBegan) {
+  EXPECT_EQ(State("program 1"), RenderingState::kUnfinished);
+  EXPECT_EQ(State("program 2"), RenderingState::kOutdated);
+  EXPECT_EQ(StateOf({"static", 3, folder_.path() / "none"}, request_, "program 1"),
+            RenderingState::kUnfinished);
+}
+
+TEST_F(RenderingStateTest, TakesWhatIsCompleteFromAnyProgram) {
+  folder_.Write(kCameraFile, "");
+  EXPECT_EQ(State("program 2"), RenderingState::kComplete);
+}
+
+TEST_F(RenderingStateTest, RefusesARenderingOfSomethingElse) {
+  folder_.Write(kCameraFile, "");
+  request_.width = 320;
+  request_.height = 240;
+  EXPECT_THAT(MessageOf([&] { State("program 1"); }),
+              HasSubstr("the size is 640x480 there, 320x240 was asked for"));
 }
 
 TEST(IsRunDone, TakesOnlyCompleteRunsOfTheSameProgramAndArguments) {
