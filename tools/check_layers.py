@@ -85,6 +85,11 @@ SOURCES = {".h", ".cpp"}
 FOLDERS = ["src", "apps", "tests", "bench", "examples", "tools", "cmake"]
 
 
+def is_test_header(path):
+    """Whether it holds what several tests share."""
+    return path.suffix == ".h" and path.stem.startswith("test_")
+
+
 def check_include(rel, layer, is_test, target):
     """The complaint about one include of a file in src/cslam/<layer>, or None."""
     match = re.match(r"cslam/(\w+)/", target)
@@ -117,7 +122,8 @@ def check_licence(lines):
 def check_source(root, rel):
     """Yields (line number, complaint) for one C++ file."""
     lines = (root / rel).read_text(encoding="utf-8").splitlines()
-    is_test = rel.stem.endswith("_test") or rel.parts[0] in {"tests", "bench"}
+    is_test = (rel.stem.endswith("_test") or is_test_header(rel)
+               or rel.parts[0] in {"tests", "bench"})
     in_library = rel.parts[:2] == ("src", "cslam")
     layer = rel.parts[2] if in_library else None
     if in_library and layer not in LAYERS:
@@ -131,7 +137,10 @@ def check_source(root, rel):
     for number, line in enumerate(lines, 1):
         include = INCLUDE.match(line)
         if include and in_library:
-            complaint = check_include(rel, layer, is_test, include.group(1))
+            target = include.group(1)
+            complaint = check_include(rel, layer, is_test, target)
+            if not is_test and is_test_header(pathlib.PurePosixPath(target)):
+                complaint = f"<{target}> is for tests"
             if complaint:
                 yield number, complaint
         code = line.split("//")[0]

@@ -10,6 +10,8 @@
 namespace cslam {
 namespace {
 
+using test::KindsToldIn;
+
 constexpr int kBearClass = 77;
 const Stamp kNow{9'000'000'000LL};
 
@@ -33,12 +35,6 @@ class ChangeListTest : public test::WatchedRoomTest {
     list_.OnDisplaced(map_, id, by, kNow, session_);
   }
   void Arrive(ObjectId id) { list_.OnArrived(map_, id, kNow, session_); }
-  std::vector<MapChangeKind> Kinds() const {
-    std::vector<MapChangeKind> kinds;
-    for (const MapChange& change : map_.changes())
-      kinds.push_back(change.kind);
-    return kinds;
-  }
 
   using Kind = MapChangeKind;
   const ObjectClasses classes_{ObjectClassOptions{}};
@@ -54,13 +50,13 @@ TEST_F(ChangeListTest, TellsASecondComingThoughTheFirstWasTold) {
   Arrive(chair);
   Leave(chair);
   Arrive(chair);  // with absent_since still set, as the layer does
-  EXPECT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kRemoved, Kind::kAdded}));
+  EXPECT_EQ(KindsToldIn(map_), (std::vector{Kind::kAdded, Kind::kRemoved, Kind::kAdded}));
 }
 
 TEST_F(ChangeListTest, TakesBackWhatAMistakeHadTold) {
   const ObjectId chair = AddObject(kHere, 7, 9);
   Arrive(chair);
-  ASSERT_EQ(Kinds(), std::vector{Kind::kAdded});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kAdded});
   list_.OnMistake(map_, chair);
   EXPECT_TRUE(map_.changes().empty());
 }
@@ -70,9 +66,9 @@ TEST_F(ChangeListTest, LeavesARemovalWhenTheNewPlaceWasAMistake) {
   const ObjectId new_chair = AddObject(kThere, 12, 15);
   Arrive(new_chair);
   Leave(old_chair);
-  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kMoved});
   list_.OnMistake(map_, new_chair);
-  EXPECT_EQ(Kinds(), std::vector{Kind::kRemoved});
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kRemoved});
   EXPECT_FALSE(map_.changes()[0].new_object.valid());
 }
 
@@ -81,12 +77,12 @@ TEST_F(ChangeListTest, TellsAMoveOnceTheNewPlaceIsKnownBetter) {
   const ObjectId new_chair = AddObject(kThere, 12, 15, kChairClass, 2.0F, 0.1);  // a leg
   Arrive(new_chair);
   Leave(old_chair);
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kRemoved}));
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kAdded, Kind::kRemoved}));
   MapObject whole = *map_.FindObject(new_chair);
   whole.box.size_m = Eigen::Vector3d::Constant(0.5);
   map_.SetObject(std::move(whole));
   Arrive(new_chair);
-  EXPECT_EQ(Kinds(), std::vector{Kind::kMoved});
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kMoved});
 }
 
 TEST_F(ChangeListTest, CarriesTheVotesForAClassAlongWithAMove) {
@@ -97,7 +93,7 @@ TEST_F(ChangeListTest, CarriesTheVotesForAClassAlongWithAMove) {
   const ObjectId new_chair = AddObject(kThere, 12, 15);
   Arrive(new_chair);
   Leave(old_chair);
-  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kMoved});
   ASSERT_EQ(map_.FindObject(new_chair)->votes.size(), 1U);
   EXPECT_EQ(map_.FindObject(new_chair)->votes[0].weight, 3.0F);
 }
@@ -106,7 +102,7 @@ TEST_F(ChangeListTest, ToldAsAddedIfItsPlaceWasEmptyAndAsNothingIfNobodyLooked) 
   Arrive(AddObject(kThere, 0, 9));
   EXPECT_TRUE(map_.changes().empty()) << "it may always have been there";
   Arrive(AddObject(kHere, 7, 9));
-  EXPECT_EQ(Kinds(), std::vector{Kind::kAdded});
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kAdded});
   EXPECT_EQ(map_.changes()[0].num_absent_views, 7);
 }
 
@@ -120,11 +116,11 @@ TEST_F(ChangeListTest, JoinsRemovalAndArrivalToAMoveInEitherOrder) {
   const ObjectId new_one = AddObject(kThere, 8, 12);
   Leave(old_one);
   Arrive(new_one);
-  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kMoved});
   map_.SetChanges({});
   Arrive(new_one);
   Leave(old_one);
-  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kMoved});
   EXPECT_EQ(map_.changes()[0].object, old_one);
   EXPECT_EQ(map_.changes()[0].new_object, new_one);
   EXPECT_GT(map_.changes()[0].confidence, 0.8);
@@ -135,21 +131,21 @@ TEST_F(ChangeListTest, DoesNotTakeAnotherColourOrSizeForTheSameThing) {
   Leave(old_one);
   Arrive(AddObject(kThere, 8, 12, kChairClass, 6.0F));
   Arrive(AddObject({-0.9, 0.0, 2.2}, 8, 12, kChairClass, 2.0F, 1.6));
-  EXPECT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kAdded, Kind::kAdded}));
+  EXPECT_EQ(KindsToldIn(map_), (std::vector{Kind::kRemoved, Kind::kAdded, Kind::kAdded}));
 }
 
 TEST_F(ChangeListTest, AllowsForMoreDifferenceInSizeIfTheColoursAreEqual) {
   const ObjectId small = AddObject(kHere, 0, 5, kChairClass, 2.0F, 0.2);
   Leave(small);
   Arrive(AddObject(kThere, 8, 12, kChairClass, 2.0F, 0.5));
-  EXPECT_EQ(Kinds(), std::vector{Kind::kMoved});
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kMoved});
 }
 
 TEST_F(ChangeListTest, DoesNotTakeWhatWasSeenAtTheSameTimeForTheSameThing) {
   const ObjectId old_one = AddObject(kHere, 0, 10);
   Arrive(AddObject(kThere, 8, 12));
   Leave(old_one, Stamp{20'000'000'000LL});
-  EXPECT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kRemoved}));
+  EXPECT_EQ(KindsToldIn(map_), (std::vector{Kind::kAdded, Kind::kRemoved}));
 }
 
 TEST_F(ChangeListTest, ForgivesAMistakeWhileThePlaceIsFoundEmpty) {
@@ -162,18 +158,19 @@ TEST_F(ChangeListTest, ForgivesAMistakeWhileThePlaceIsFoundEmpty) {
     Leave(old_one, Stamp{16'000'000'000LL});
   };
   seen_again_and_gone(Stamp{5'000'000'000LL});
-  EXPECT_EQ(Kinds(), std::vector{Kind::kMoved});
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kMoved});
   map_.SetChanges({});
   seen_again_and_gone(Stamp{12'000'000'000LL});
-  EXPECT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kRemoved})) << "both were seen meanwhile";
+  EXPECT_EQ(KindsToldIn(map_), (std::vector{Kind::kAdded, Kind::kRemoved}))
+      << "both were seen meanwhile";
 }
 
 TEST_F(ChangeListTest, TellsAReplacementNearThePlaceOnly) {
   Leave(AddObject(kHere, 0, 5));
   Arrive(AddObject(kThere, 8, 12, kBearClass, 5.0F));
-  EXPECT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kAdded})) << "0.9 m away";
+  EXPECT_EQ(KindsToldIn(map_), (std::vector{Kind::kRemoved, Kind::kAdded})) << "0.9 m away";
   Arrive(AddObject(kHere, 8, 12, kBearClass, 5.0F));
-  EXPECT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kReplaced}));
+  EXPECT_EQ(KindsToldIn(map_), (std::vector{Kind::kAdded, Kind::kReplaced}));
 }
 
 TEST_F(ChangeListTest, TellsAReplacementByWhatTheOldThingHadHidden) {
@@ -184,14 +181,14 @@ TEST_F(ChangeListTest, TellsAReplacementByWhatTheOldThingHadHidden) {
   map_.SetChanges({});
   Leave(AddObject(kHere, 0, 0));
   Arrive(AddObject(kHere + Eigen::Vector3d(0.0, 0.1, 0.0), 1, 12, kBearClass, 5.0F, 0.2));
-  EXPECT_EQ(Kinds(), std::vector{Kind::kReplaced});
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kReplaced});
 }
 
 TEST_F(ChangeListTest, PrefersAMoveToAReplacement) {
   Leave(AddObject(kHere, 0, 5));
   Leave(AddObject(kThere, 0, 5, kBearClass, 5.0F));
   Arrive(AddObject(kHere, 8, 12, kBearClass, 5.0F));
-  EXPECT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kMoved}));
+  EXPECT_EQ(KindsToldIn(map_), (std::vector{Kind::kRemoved, Kind::kMoved}));
   EXPECT_EQ(map_.changes()[1].object, ObjectId(1)) << "the bear";
 }
 
@@ -200,11 +197,11 @@ TEST_F(ChangeListTest, DisplacedThingsAreReplacedOnceByEachNewOne) {
   const ObjectId cup = AddObject(kHere, 0, 5, 41, 1.0F, 0.1);
   const ObjectId bear = AddObject(kHere, 8, 12, kBearClass, 5.0F);
   Arrive(bear);
-  ASSERT_EQ(Kinds(), std::vector{Kind::kAdded});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kAdded});
   list_.OnDisplaced(map_, chair, bear, kNow, 0);
-  EXPECT_EQ(Kinds(), std::vector{Kind::kReplaced});
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kReplaced});
   list_.OnDisplaced(map_, cup, bear, kNow, 0);
-  EXPECT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kRemoved}));
+  EXPECT_EQ(KindsToldIn(map_), (std::vector{Kind::kReplaced, Kind::kRemoved}));
 }
 
 TEST_F(ChangeListTest, TellsAMoveOnceTheNewThingIsKnownByItsColours) {
@@ -212,13 +209,13 @@ TEST_F(ChangeListTest, TellsAMoveOnceTheNewThingIsKnownByItsColours) {
   const ObjectId other = AddObject(kThere, 8, 12, kChairClass, 5.0F);  // half hidden at first
   Leave(chair);
   Arrive(other);
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kRemoved, Kind::kAdded}));
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kRemoved, Kind::kAdded}));
   MapObject known = *map_.FindObject(other);
   known.colours = map_.FindObject(chair)->colours;
   map_.SetObject(known);
   const Stamp later{12'000'000'000LL};
   list_.OnSeenAgain(map_, other, later);
-  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kMoved});
   EXPECT_EQ(map_.changes()[0].reported, later);
 }
 
@@ -228,18 +225,18 @@ TEST_F(ChangeListTest, TakesTheRemovalOfASecondDisplacedThingBack) {
   const ObjectId bear = AddObject(kHere, 8, 9, kBearClass, 5.0F);
   Displace(chair, bear);
   Displace(cup, bear);
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kRemoved}));
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kReplaced, Kind::kRemoved}));
   list_.OnArrived(map_, cup, kNow, session_);
-  EXPECT_EQ(Kinds(), std::vector{Kind::kReplaced});
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kReplaced});
 }
 
 TEST_F(ChangeListTest, TakesAReplacementBackWhenTheOldThingIsSeenBesideTheNewOne) {
   const ObjectId chair = AddObject(kHere, 0, 5);
   const ObjectId bear = AddObject(kHere, 8, 9, kBearClass, 5.0F);
   Displace(chair, bear);
-  ASSERT_EQ(Kinds(), std::vector{Kind::kReplaced});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kReplaced});
   list_.OnArrived(map_, chair, Stamp{10'000'000'000LL}, session_);
-  EXPECT_EQ(Kinds(), std::vector{Kind::kAdded}) << "the bear's place had been empty";
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kAdded}) << "the bear's place had been empty";
   EXPECT_EQ(map_.changes()[0].object, bear);
 }
 
@@ -248,7 +245,7 @@ TEST_F(ChangeListTest, KeepsAReplacementWhenTheOldThingIsBackMuchLater) {
   const ObjectId bear = AddObject(kHere, 8, 9, kBearClass, 5.0F);
   Displace(chair, bear);
   list_.OnArrived(map_, chair, Stamp{60'000'000'000LL}, session_);
-  EXPECT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kAdded}));
+  EXPECT_EQ(KindsToldIn(map_), (std::vector{Kind::kReplaced, Kind::kAdded}));
 }
 
 TEST_F(ChangeListTest, GivesTheReplacementToTheLargerOfTwoThatAreGone) {
@@ -256,9 +253,9 @@ TEST_F(ChangeListTest, GivesTheReplacementToTheLargerOfTwoThatAreGone) {
   const ObjectId chair = AddObject(kHere, 0, 5);
   Leave(small);
   Arrive(AddObject(kHere, 8, 12, kBearClass, 5.0F));
-  ASSERT_EQ(Kinds(), std::vector{Kind::kReplaced});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kReplaced});
   Leave(chair);
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kReplaced, Kind::kRemoved}));
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kReplaced, Kind::kRemoved}));
   EXPECT_EQ(map_.changes()[0].object, chair);
   EXPECT_EQ(map_.changes()[1].object, small);
 }
@@ -268,11 +265,11 @@ TEST_F(ChangeListTest, TellsTwoMovesOfThingsThatChangedPlacesWhicheverIsMissedFi
   const ObjectId bear = AddObject(kThere, 0, 5, kBearClass, 5.0F);
   Leave(chair);
   Arrive(AddObject(kHere, 8, 12, kBearClass, 5.0F));
-  ASSERT_EQ(Kinds(), std::vector{Kind::kReplaced}) << "as far as is known by then";
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kReplaced}) << "as far as is known by then";
   Arrive(AddObject(kThere, 9, 12));
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kMoved, Kind::kAdded}));
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kMoved, Kind::kAdded}));
   Leave(bear);
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kMoved, Kind::kMoved}));
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kMoved, Kind::kMoved}));
   EXPECT_EQ(map_.changes()[0].object, chair);
   EXPECT_EQ(map_.changes()[1].object, bear);
 }
@@ -282,7 +279,7 @@ TEST_F(ChangeListTest, ForgetsMovesOfAThingToItselfWhenTwoBecomeOne) {
   const ObjectId new_one = AddObject(kThere, 8, 12);
   Leave(old_one);
   Arrive(new_one);
-  ASSERT_EQ(Kinds(), std::vector{Kind::kMoved});
+  ASSERT_EQ(KindsToldIn(map_), std::vector{Kind::kMoved});
   list_.OnMerged(map_, old_one, new_one);
   EXPECT_TRUE(map_.changes().empty());
 }
@@ -292,9 +289,9 @@ TEST_F(ChangeListTest, TellsOneArrivalOfAThingThatWasTakenForTwo) {
   const ObjectId twin = AddObject(kHere, 9, 12);
   Arrive(chair);
   Arrive(twin);
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kAdded, Kind::kAdded}));
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kAdded, Kind::kAdded}));
   list_.OnMerged(map_, chair, twin);
-  EXPECT_EQ(Kinds(), std::vector{Kind::kAdded});
+  EXPECT_EQ(KindsToldIn(map_), std::vector{Kind::kAdded});
 }
 
 TEST_F(ChangeListTest, LeavesOneMoveToAThingThatWasTakenForTwo) {
@@ -306,9 +303,9 @@ TEST_F(ChangeListTest, LeavesOneMoveToAThingThatWasTakenForTwo) {
   Arrive(new_chair);
   Leave(bear);
   Arrive(new_bear);
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kMoved, Kind::kMoved}));
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kMoved, Kind::kMoved}));
   list_.OnMerged(map_, new_chair, new_bear);
-  ASSERT_EQ(Kinds(), (std::vector{Kind::kMoved, Kind::kRemoved}));
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kMoved, Kind::kRemoved}));
   EXPECT_EQ(map_.changes()[0].object, chair);
 }
 

@@ -13,6 +13,7 @@ namespace {
 using test::BoxAt;
 using test::kBearClass;
 using test::kChairSize;
+using test::KindsToldIn;
 using test::kPlace;
 using test::PoseLookingAt;
 using test::Thing;
@@ -38,12 +39,6 @@ class ObjectOriginsTest : public test::ObjectLayerTest {
     room_.things = {Chair(kNewPlace, 7)};
     Watch(right_, 4);
   }
-  std::vector<MapChangeKind> Kinds() const {
-    std::vector<MapChangeKind> kinds;
-    for (const MapChange& change : map_.changes())
-      kinds.push_back(change.kind);
-    return kinds;
-  }
 
   using Told = std::vector<MapChangeKind>;
   const Se3 right_ = PoseLookingAt({0.0, 0.2, 0.0}, kNewPlace);
@@ -53,9 +48,9 @@ TEST_F(ObjectOriginsTest, AThingThatNobodyHadNamedHasMovedOnceItsOldPlaceIsSeenE
   LookAtBoth(NamelessChair());
   EXPECT_TRUE(map_.Objects().empty());
   SeeChairAtNewPlace();
-  EXPECT_EQ(Kinds(), Told{MapChangeKind::kAdded});
+  EXPECT_EQ(KindsToldIn(map_), Told{MapChangeKind::kAdded});
   Watch(front_, 3);
-  ASSERT_EQ(Kinds(), Told{MapChangeKind::kMoved});
+  ASSERT_EQ(KindsToldIn(map_), Told{MapChangeKind::kMoved});
   const MapChange& moved = map_.changes()[0];
   const MapObject& origin = *map_.FindObject(moved.object);
   EXPECT_EQ(origin.state, ObjectState::kAbsent);
@@ -71,14 +66,14 @@ TEST_F(ObjectOriginsTest, TheOldPlaceMayBeSeenEmptyBeforeTheNewOneIsSeenTaken) {
   room_.things.clear();
   Watch(front_, 3);
   SeeChairAtNewPlace();
-  EXPECT_EQ(Kinds(), Told{MapChangeKind::kMoved});
+  EXPECT_EQ(KindsToldIn(map_), Told{MapChangeKind::kMoved});
 }
 
 TEST_F(ObjectOriginsTest, OfOtherColoursItIsAnotherThing) {
   LookAtBoth(NamelessChair(5.0F));
   SeeChairAtNewPlace();
   Watch(front_, 3);
-  EXPECT_EQ(Kinds(), Told{MapChangeKind::kAdded});
+  EXPECT_EQ(KindsToldIn(map_), Told{MapChangeKind::kAdded});
 }
 
 TEST_F(ObjectOriginsTest, OfAnotherSizeItIsAnotherThing) {
@@ -87,7 +82,7 @@ TEST_F(ObjectOriginsTest, OfAnotherSizeItIsAnotherThing) {
   LookAtBoth(small);
   SeeChairAtNewPlace();
   Watch(front_, 3);
-  EXPECT_EQ(Kinds(), Told{MapChangeKind::kAdded});
+  EXPECT_EQ(KindsToldIn(map_), Told{MapChangeKind::kAdded});
 }
 
 TEST_F(ObjectOriginsTest, WhatStillStandsWhereItStoodHasNotMoved) {
@@ -95,7 +90,7 @@ TEST_F(ObjectOriginsTest, WhatStillStandsWhereItStoodHasNotMoved) {
   SeeChairAtNewPlace();
   room_.things.push_back(NamelessChair());
   Watch(front_, 3);
-  EXPECT_EQ(Kinds(), Told{MapChangeKind::kAdded});
+  EXPECT_EQ(KindsToldIn(map_), Told{MapChangeKind::kAdded});
 }
 
 TEST_F(ObjectOriginsTest, AThingOfAnotherNameThatLooksTheSameHasMoved) {
@@ -106,7 +101,7 @@ TEST_F(ObjectOriginsTest, AThingOfAnotherNameThatLooksTheSameHasMoved) {
   ASSERT_EQ(map_.Objects().size(), 1U);
   SeeChairAtNewPlace();
   Watch(front_, 4);
-  EXPECT_EQ(Kinds(), Told{MapChangeKind::kMoved});
+  EXPECT_EQ(KindsToldIn(map_), Told{MapChangeKind::kMoved});
   EXPECT_EQ(map_.Objects().size(), 2U) << "no third one where the first one stood";
   EXPECT_EQ(Object(0).class_id, kChairClass);
   EXPECT_EQ(Object(0).state, ObjectState::kAbsent);
@@ -121,12 +116,13 @@ TEST_F(ObjectOriginsTest, WaitsWhileAKnownThingMayHaveMoved) {
   Watch(right_, 3);
   SeeChairAtNewPlace();
   Watch(front_, 3);
-  EXPECT_EQ(Kinds(), Told{MapChangeKind::kAdded}) << "it may be the one that stood on the left";
+  EXPECT_EQ(KindsToldIn(map_), Told{MapChangeKind::kAdded})
+      << "it may be the one that stood on the left";
   room_.things.push_back(Chair(left, 3));
   Watch(look_left, 1);
   Watch(front_, 1);
   Watch(right_, 1);
-  EXPECT_EQ(Kinds(), Told{MapChangeKind::kMoved}) << "but that is still there";
+  EXPECT_EQ(KindsToldIn(map_), Told{MapChangeKind::kMoved}) << "but that is still there";
 }
 
 TEST_F(ObjectOriginsTest, IsNotLookedForIfTurnedOff) {
@@ -136,7 +132,7 @@ TEST_F(ObjectOriginsTest, IsNotLookedForIfTurnedOff) {
   LookAtBoth(NamelessChair());
   SeeChairAtNewPlace();
   Watch(front_, 3);
-  EXPECT_EQ(Kinds(), Told{MapChangeKind::kAdded});
+  EXPECT_EQ(KindsToldIn(map_), Told{MapChangeKind::kAdded});
 }
 
 }  // namespace

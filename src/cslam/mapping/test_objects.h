@@ -4,6 +4,7 @@
 
 // Things in a room as keyframes see them: depth, and a sighting of each, without a renderer.
 
+#include "cslam/map/map.h"
 #include "cslam/map/test_room.h"
 #include "cslam/objects/object_sighting.h"
 #include "cslam/util/random.h"
@@ -136,6 +137,14 @@ inline Se3 PoseLookingAt(const Eigen::Vector3d& from, const Eigen::Vector3d& pla
   Eigen::Matrix3d R;
   R << right, forward.cross(right), forward;
   return {Eigen::Quaterniond(R), from};
+}
+
+// Of the changes in the order they are told.
+inline std::vector<MapChangeKind> KindsToldIn(const MapView& map) {
+  std::vector<MapChangeKind> kinds;
+  for (const MapChange& change : map.changes())
+    kinds.push_back(change.kind);
+  return kinds;
 }
 
 inline TestBox BoxAt(const Eigen::Vector3d& center, const Eigen::Vector3d& size) {

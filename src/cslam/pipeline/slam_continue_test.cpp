@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Changing-SLAM authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cslam/pipeline/slam.h"
-#include "cslam/sim/test_frames.h"
+#include "cslam/pipeline/test_slam.h"
 #include "cslam/util/check.h"
 #include "cslam/util/test_folder.h"
 
@@ -12,24 +11,13 @@
 namespace cslam {
 namespace {
 
+using test::Frames;
+using test::NameOf;
+using test::Renamed;
+using test::SmallOptions;
 using testing::HasSubstr;
 
 constexpr std::size_t kNumFirst = 10;  // frames of the first session
-
-const test::TestFrames& Frames() {
-  static const auto frames =
-      test::MakeTestFrames({.width = 320, .height = 240, .fps = 10.0, .num_frames = 20});
-  return frames;
-}
-
-SlamOptions SmallOptions() {
-  SlamOptions options;
-  options.tracking.orb.num_features = 500;
-  options.tracking.keyframe.max_interval_frames = 4;
-  options.tracking.recently_lost_s = 1000.0;  // however slow the machine is
-  options.mapping.check_invariants = true;
-  return options;
-}
 
 // As a map file gives it back.
 Map Copy(const MapView& view) {
@@ -69,10 +57,8 @@ class ContinueTest : public testing::TestWithParam<Execution> {
 
   // Later and later, whichever of the frames it shows.
   TrackingResult Show(std::size_t i) {
-    RgbdFrame frame = *Frames().frames[i];
-    frame.id = FrameId(next_);
-    frame.stamp = Stamp{0} + std::int64_t{100'000'000} * next_++;
-    return slam_.Track(std::make_shared<const RgbdFrame>(std::move(frame)));
+    const Stamp stamp = Stamp{0} + std::int64_t{100'000'000} * next_;
+    return slam_.Track(Renamed(*Frames().frames[i], next_++, stamp));
   }
 
   // Threaded, the place becomes known some frames later.
@@ -92,9 +78,6 @@ class ContinueTest : public testing::TestWithParam<Execution> {
   std::uint32_t next_ = 0;
 };
 
-std::string NameOf(const testing::TestParamInfo<Execution>& info) {
-  return info.param == Execution::kInline ? "Inline" : "Threaded";
-}
 INSTANTIATE_TEST_SUITE_P(Executions, ContinueTest,
                          testing::Values(Execution::kInline, Execution::kThreaded), NameOf);
 

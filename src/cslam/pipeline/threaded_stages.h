@@ -40,7 +40,7 @@ struct Slam::ThreadedExecutor::Stages {
   // A frame for the live detector.
   struct Look {
     std::shared_ptr<const RgbdFrame> frame;
-    std::size_t number = 0;  // 1 for the first frame fed
+    std::size_t number = 0;  // 1 for the first frame tracked
   };
 
   using MapperInput =
@@ -59,11 +59,11 @@ struct Slam::ThreadedExecutor::Stages {
   };
   using PlaceInput = std::variant<RefinedKeyframe, CorrectedMap, LostFrame, ResetRequest>;
 
-  void WaitForStagesBehind();
   Stages(const Camera& camera, const SlamOptions& options, Sinks all_sinks, FeedPolicy policy,
          std::unique_ptr<Detector> some_detector);
   ~Stages();
 
+  void WaitForStagesBehind();
   void RunLiveDetector();
   void RunDetectorFirst();
   std::shared_ptr<const Detections> NewestDetections(const std::shared_ptr<const RgbdFrame>& frame);
