@@ -40,17 +40,10 @@ std::vector<Eigen::Vector3f> Transformed(std::span<const Eigen::Vector3f> points
   return moved;
 }
 
-struct Ends {
-  double min = 0.0;
-  double max = 0.0;
-};
-
 // Where the values lie, the outermost 5 % at each end left out.
-Ends InnerEnds(std::vector<double> values) {
-  const std::size_t last = values.size() - 1;
-  const std::size_t cut = values.size() / 20;
-  const double min = ValueOfRank(values, cut);
-  return {min, ValueOfRank(std::move(values), last - cut)};
+ValueRange<double> MostOf(std::vector<double> values) {
+  const std::size_t num_out = values.size() / 20;
+  return InnerRange(std::move(values), num_out);
 }
 
 // Largest side of the object's box once it holds the points as well (object frame).
@@ -62,7 +55,7 @@ double UnionSizeM(const OrientedBox& box, std::span<const Eigen::Vector3f> point
     values.reserve(points.size());
     for (const Eigen::Vector3f& p : points)
       values.push_back(R.row(axis).dot(p.cast<double>() - box.center));
-    const Ends ends = InnerEnds(std::move(values));
+    const auto ends = MostOf(std::move(values));
     const double half = 0.5 * box.size_m[axis];
     largest = std::max(largest, std::max(half, ends.max) - std::min(-half, ends.min));
   }
@@ -85,8 +78,8 @@ double ExtentAcross(std::span<const Eigen::Vector3f> points_camera) {
     values.reserve(points_camera.size());
     for (const Eigen::Vector3f& p : points_camera)
       values.push_back(static_cast<double>(p[axis]));
-    const Ends ends = InnerEnds(std::move(values));
-    extent_m = std::max(extent_m, ends.max - ends.min);
+    const auto ends = MostOf(std::move(values));
+    extent_m = std::max(extent_m, ends.length());
   }
   return extent_m;
 }
@@ -102,37 +95,54 @@ struct Likeness {
   bool is_on_surface = false;
 };
 
-Likeness Compare(const MapView& map, const MapObject& object, const PlacedSighting& sighting,
-                 const DepthView& view, const Se3& T_world_camera, const ObjectClasses& classes,
-                 const MapObjectOptions& options) {
-  const Se3 T_world_object = map.T_world_object(object);
-  const double distance_m = (sighting.centroid_world - T_world_object * object.centroid).norm();
+// An object that sightings are held against. What several of them ask for is computed once.
+class ViewedObject {
+ public:
+  ViewedObject(const MapView& map, const MapObject& object, const Se3& T_world_camera)
+      : object_(object),
+        T_world_object_(map.T_world_object(object)),
+        T_camera_object_(T_world_camera.Inverse() * T_world_object_) {}
+
+  Likeness Compare(const PlacedSighting& sighting, const DepthView& view,
+                   const ObjectClasses& classes, const MapObjectOptions& options);
+
+ private:
+  const MapObject& object_;
+  const Se3 T_world_object_;
+  const Se3 T_camera_object_;
+  std::optional<std::vector<cv::Point>> standing_;
+  std::optional<SurfaceCells> cells_;
+};
+
+Likeness ViewedObject::Compare(const PlacedSighting& sighting, const DepthView& view,
+                               const ObjectClasses& classes, const MapObjectOptions& options) {
+  const double distance_m = (sighting.centroid_world - T_world_object_ * object_.centroid).norm();
   const double limit_m =
-      std::max(classes.DistanceM(object.class_id), classes.DistanceM(sighting.sighting->class_id));
+      std::max(classes.DistanceM(object_.class_id), classes.DistanceM(sighting.sighting->class_id));
   if (distance_m > 2.0 * limit_m) return {};
-  const Se3 T_camera_object = T_world_camera.Inverse() * T_world_object;
-  const StandingSurface standing = FindStanding(object.surface->samples, T_camera_object, view,
-                                                sighting.sighting->region.mask, options.view);
-  const bool is_alike = classes.AreAlike(object.class_id, sighting.sighting->class_id);
+  const std::vector<Eigen::Vector3f>& samples = object_.surface->samples;
+  if (!standing_) standing_ = PixelsOfStanding(samples, T_camera_object_, view, options.view);
+  const StandingSurface standing = CoveredBy(sighting.region.mask, *standing_, samples.size());
+  const bool is_alike = classes.AreAlike(object_.class_id, sighting.sighting->class_id);
   // One thing that the detector takes now for this, now for that: the very same surface.
   const bool may_be_same =
       standing.num_standing > 0 && standing.covered_share() >= options.same_surface;
   if (!is_alike && !may_be_same) return {};
-  const auto points = Transformed(sighting.points_camera, T_camera_object.Inverse());
-  const double overlap = Overlap(*object.surface, points, ReachM(*object.surface));
+  const auto points = Transformed(sighting.points_camera, T_camera_object_.Inverse());
+  if (!cells_) cells_.emplace(*object_.surface, ReachM(*object_.surface));
+  const double overlap = cells_->ShareOf(points);
   if (!is_alike) return {overlap >= options.same_surface ? 0.5 * overlap : 0.0, true};
   const double nearness = std::max(0.0, 1.0 - distance_m / limit_m);
   const bool is_on_surface = overlap >= options.min_overlap;
-  const bool is_gone = object.state == ObjectState::kAbsent;
+  const bool is_gone = object_.state == ObjectState::kAbsent;
   if (is_on_surface && !is_gone) return {overlap + 0.3 * nearness, true};
   if (!is_on_surface && (is_gone || distance_m > limit_m)) return {};
   const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false};
-  const ExpectedView expected =
-      LookAtPlace(object.surface->samples, T_camera_object, sampler, 0.0, options.view);
+  const ExpectedView expected = LookAtPlace(samples, T_camera_object_, sampler, 0.0, options.view);
   if (expected.verdict == PlaceVerdict::kLookedThrough) return {};
   if (is_on_surface) return {overlap + 0.3 * nearness, true};
   if (IsElsewhere(standing)) return {};
-  if (UnionSizeM(object.box, points) > options.max_union * limit_m) return {};
+  if (UnionSizeM(object_.box, points) > options.max_union * limit_m) return {};
   return {overlap + 0.3 * nearness + 1e-3, false};
 }
 
@@ -209,10 +219,10 @@ std::vector<std::optional<ObjectId>> AssociateSightings(
   for (const ObjectId id : map.Objects()) {
     const MapObject& object = *map.FindObject(id);
     if (object.map != map_id || !object.surface) continue;
+    ViewedObject viewed(map, object, T_world_camera);
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       if (!IsRecognised(object, *sightings[i].sighting, seen_before, options)) continue;
-      const Likeness likeness =
-          Compare(map, object, sightings[i], view, T_world_camera, classes, options);
+      const Likeness likeness = viewed.Compare(sightings[i], view, classes, options);
       if (likeness.score > 0.0) pairs.push_back({likeness, i, id});
     }
   }

@@ -5,6 +5,8 @@
 #include "cslam/objects/expected_view.h"
 #include "cslam/util/quantile.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -93,14 +95,14 @@ void Clean(std::vector<SurfaceVoxel>& voxels) {
   std::erase_if(voxels, [](const SurfaceVoxel& v) { return v.num_inside < 2; });
 }
 
-std::vector<Eigen::Vector3f> SamplesOf(const ObjectSurface& surface) {
-  std::vector<Eigen::Vector3f> trusted = TrustedPoints(surface);
-  if (trusted.size() <= kNumSamples) return trusted;
-  std::vector<Eigen::Vector3f> samples;
-  samples.reserve(kNumSamples);
-  for (std::size_t i = 0; i < kNumSamples; ++i)
-    samples.push_back(trusted[i * trusted.size() / kNumSamples]);
-  return samples;
+template <typename T>
+std::vector<T> SpreadEvenly(std::span<const T> all, std::size_t max_count) {
+  if (all.size() <= max_count) return {all.begin(), all.end()};
+  std::vector<T> some;
+  some.reserve(max_count);
+  for (std::size_t i = 0; i < max_count; ++i)
+    some.push_back(all[i * all.size() / max_count]);
+  return some;
 }
 
 void CountOutside(std::vector<SurfaceVoxel>& voxels, const Se3& T_camera_surface,
@@ -113,38 +115,28 @@ void CountOutside(std::vector<SurfaceVoxel>& voxels, const Se3& T_camera_surface
   }
 }
 
-struct Interval {
-  double min = 0.0;
-  double max = 0.0;
-  double length() const { return max - min; }
-  double middle() const { return 0.5 * (min + max); }
-};
-
-Interval RobustInterval(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& axis) {
+// How far they reach along the axis.
+ValueRange<double> RobustRange(std::span<const Eigen::Vector3f> points,
+                               const Eigen::Vector3d& axis) {
   constexpr double kLeftOut = 0.02;
   std::vector<double> values;
   values.reserve(points.size());
   for (const Eigen::Vector3f& p : points)
     values.push_back(axis.dot(p.cast<double>()));
-  const double min = QuantileOf(values, kLeftOut);
-  return {min, QuantileOf(std::move(values), 1.0 - kLeftOut)};
+  const auto num_out = static_cast<std::size_t>(kLeftOut * static_cast<double>(values.size()));
+  return InnerRange(std::move(values), num_out);
 }
 
 // Readings between two surfaces, as sensors make them at edges, have few neighbours at their depth.
-bool IsOnSurface(const DepthView& view, int u, int v, float z) {
+bool IsOnSurface(const DepthView& view, int u, int v) {
   constexpr int kMinNeighbours = 4;  // of 8
+  const float z = view.DepthM(u, v);
+  if (z <= 0.0F) return false;
   const float step = std::max(0.03F, 0.03F * z);
-  int num_near = 0;
-  for (int dv = -1; dv <= 1; ++dv) {
-    for (int du = -1; du <= 1; ++du) {
-      const int nu = u + du;
-      const int nv = v + dv;
-      if ((du == 0 && dv == 0) || nu < 0 || nv < 0 || nu >= view.depth_mm.cols ||
-          nv >= view.depth_mm.rows) {
-        continue;
-      }
+  int num_near = -1;  // itself
+  for (int nv = std::max(v - 1, 0); nv <= std::min(v + 1, view.depth_mm.rows - 1); ++nv) {
+    for (int nu = std::max(u - 1, 0); nu <= std::min(u + 1, view.depth_mm.cols - 1); ++nu)
       num_near += std::abs(view.DepthM(nu, nv) - z) <= step ? 1 : 0;
-    }
   }
   return num_near >= kMinNeighbours;
 }
@@ -153,22 +145,21 @@ bool IsOnSurface(const DepthView& view, int u, int v, float z) {
 
 std::vector<Eigen::Vector3f> PointsOfRegion(const DepthView& view, const DepthRegion& region,
                                             std::size_t max_count) {
-  std::vector<Eigen::Vector3f> all;
-  all.reserve(static_cast<std::size_t>(region.num_pixels));
-  for (int v = 0; v < region.mask.rows; ++v) {
-    for (int u = 0; u < region.mask.cols; ++u) {
-      if (region.mask.at<std::uint8_t>(v, u) == 0) continue;
-      const float z = view.DepthM(u, v);
-      if (z <= 0.0F || !IsOnSurface(view, u, v, z)) continue;
-      all.push_back(view.PointAt(u, v, static_cast<double>(z)).cast<float>());
+  std::vector<cv::Point> pixels;
+  pixels.reserve(static_cast<std::size_t>(region.num_pixels));
+  const cv::Rect box = cv::boundingRect(region.mask);
+  for (int v = box.y; v < box.br().y; ++v) {
+    for (int u = box.x; u < box.br().x; ++u) {
+      if (region.mask.at<std::uint8_t>(v, u) != 0 && IsOnSurface(view, u, v))
+        pixels.emplace_back(u, v);
     }
   }
-  if (all.size() <= max_count) return all;
-  std::vector<Eigen::Vector3f> some;
-  some.reserve(max_count);
-  for (std::size_t i = 0; i < max_count; ++i)
-    some.push_back(all[i * all.size() / max_count]);
-  return some;
+  std::vector<Eigen::Vector3f> points;
+  for (const cv::Point& pixel : SpreadEvenly<cv::Point>(pixels, max_count)) {
+    const auto z_m = static_cast<double>(view.DepthM(pixel.x, pixel.y));
+    points.push_back(view.PointAt(pixel.x, pixel.y, z_m).cast<float>());
+  }
+  return points;
 }
 
 ObjectSurface WithView(const ObjectSurface& surface, std::span<const Eigen::Vector3f> points,
@@ -180,7 +171,7 @@ ObjectSurface WithView(const ObjectSurface& surface, std::span<const Eigen::Vect
   CountOutside(known, T_surface_camera.Inverse(), view, region, tolerance_m);
   next.voxels = Union(known, CellsOf(points, T_surface_camera, surface.voxel_m));
   Clean(next.voxels);
-  next.samples = SamplesOf(next);
+  next.samples = SpreadEvenly<Eigen::Vector3f>(TrustedPoints(next), kNumSamples);
   return next;
 }
 
@@ -198,7 +189,7 @@ ObjectSurface Joined(const ObjectSurface& surface, const ObjectSurface& other,
   joined.voxel_m = surface.voxel_m;
   joined.voxels = Union(surface.voxels, Union(moved, {}));
   Clean(joined.voxels);
-  joined.samples = SamplesOf(joined);
+  joined.samples = SpreadEvenly<Eigen::Vector3f>(TrustedPoints(joined), kNumSamples);
   return joined;
 }
 
@@ -223,52 +214,68 @@ std::vector<Eigen::Vector3f> TrustedPoints(const ObjectSurface& surface) {
   return points;
 }
 
+SurfaceCells::SurfaceCells(const ObjectSurface& surface, double reach_m) : reach_m_(reach_m) {
+  for (const Eigen::Vector3f& p : TrustedPoints(surface)) {
+    const Cell cell = CellOf(p, reach_m);
+    if (cells_.empty() || cells_.back() != cell) cells_.push_back(cell);
+  }
+  std::sort(cells_.begin(), cells_.end());
+  cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+}
+
+// The three along the last axis follow each other.
+bool SurfaceCells::IsNear(const Eigen::Vector3f& p) const {
+  const Cell cell = CellOf(p, reach_m_);
+  for (int i = 0; i < 9; ++i) {
+    const auto x = static_cast<std::int16_t>(cell[0] + i / 3 - 1);
+    const auto y = static_cast<std::int16_t>(cell[1] + i % 3 - 1);
+    const Cell from{x, y, static_cast<std::int16_t>(cell[2] - 1)};
+    const Cell to{x, y, static_cast<std::int16_t>(cell[2] + 1)};
+    const auto found = std::lower_bound(cells_.begin(), cells_.end(), from);
+    if (found != cells_.end() && *found <= to) return true;
+  }
+  return false;
+}
+
+double SurfaceCells::ShareOf(std::span<const Eigen::Vector3f> points) const {
+  if (points.empty() || cells_.empty()) return 0.0;
+  const auto num_near =
+      std::count_if(points.begin(), points.end(), [&](const auto& p) { return IsNear(p); });
+  return static_cast<double>(num_near) / static_cast<double>(points.size());
+}
+
 double Overlap(const ObjectSurface& surface, std::span<const Eigen::Vector3f> points,
                double reach_m) {
-  if (points.empty() || surface.voxels.empty()) return 0.0;
-  std::vector<Cell> taken;  // of the coarse grid, each with its neighbours
-  for (const Eigen::Vector3f& p : TrustedPoints(surface))
-    taken.push_back(CellOf(p, reach_m));
-  std::sort(taken.begin(), taken.end());
-  taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
-  int num_on = 0;
-  for (const Eigen::Vector3f& p : points) {
-    const Cell cell = CellOf(p, reach_m);
-    bool is_on = false;
-    for (int i = 0; i < 27 && !is_on; ++i) {
-      const Cell near{static_cast<std::int16_t>(cell[0] + i % 3 - 1),
-                      static_cast<std::int16_t>(cell[1] + i / 3 % 3 - 1),
-                      static_cast<std::int16_t>(cell[2] + i / 9 - 1)};
-      is_on = std::binary_search(taken.begin(), taken.end(), near);
-    }
-    num_on += is_on ? 1 : 0;
-  }
-  return static_cast<double>(num_on) / static_cast<double>(points.size());
+  return SurfaceCells(surface, reach_m).ShareOf(points);
 }
 
 OrientedBox BoxAround(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& up) {
   constexpr int kStepDeg = 5;
-  OrientedBox box;
-  if (points.empty()) return box;
+  constexpr std::size_t kMaxToTurn = 128;  // points that tell how it is turned; all tell its size
+  if (points.empty()) return {};
+  const std::vector<Eigen::Vector3f> some = SpreadEvenly<Eigen::Vector3f>(points, kMaxToTurn);
   const Eigen::Vector3d first = up.unitOrthogonal();
   const Eigen::Vector3d second = up.cross(first);
   double least_area = std::numeric_limits<double>::max();
-  const Interval height = RobustInterval(points, up);
+  Eigen::Matrix3d axes;
   for (int degrees = 0; degrees < 90; degrees += kStepDeg) {
     const double angle = degrees * std::numbers::pi / 180.0;
     const Eigen::Vector3d x = std::cos(angle) * first + std::sin(angle) * second;
     const Eigen::Vector3d y = up.cross(x);
-    const Interval along_x = RobustInterval(points, x);
-    const Interval along_y = RobustInterval(points, y);
-    const double area = along_x.length() * along_y.length();
+    const double area = RobustRange(some, x).length() * RobustRange(some, y).length();
     if (area >= least_area) continue;
     least_area = area;
-    Eigen::Matrix3d axes;
     axes << x, y, up;
-    box.rotation = Eigen::Quaterniond(axes);
-    box.size_m = {along_x.length(), along_y.length(), height.length()};
-    box.center = axes * Eigen::Vector3d(along_x.middle(), along_y.middle(), height.middle());
   }
+  OrientedBox box;
+  Eigen::Vector3d middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto range = RobustRange(points, axes.col(axis));
+    box.size_m[axis] = range.length();
+    middle[axis] = range.middle();
+  }
+  box.rotation = Eigen::Quaterniond(axes);
+  box.center = axes * middle;
   return box;
 }
 

@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -32,7 +34,23 @@ ObjectSurface Joined(const ObjectSurface& surface, const ObjectSurface& other,
 // by chance: what a single view has run into counts once there are many.
 std::vector<Eigen::Vector3f> TrustedPoints(const ObjectSurface& surface);
 
-// Share of points (in the surface's frame) with a trusted cell within about reach_m.
+// Where a surface is, to ask often what lies on it.
+class SurfaceCells {
+ public:
+  // Of its trusted points; reach_m: about how near a point must be to one of them.
+  SurfaceCells(const ObjectSurface& surface, double reach_m);
+
+  // Share of points (in the surface's frame) that are near.
+  double ShareOf(std::span<const Eigen::Vector3f> points) const;
+
+ private:
+  bool IsNear(const Eigen::Vector3f& p) const;
+
+  const double reach_m_;
+  std::vector<std::array<std::int16_t, 3>> cells_;  // sorted
+};
+
+// The same for a single question.
 double Overlap(const ObjectSurface& surface, std::span<const Eigen::Vector3f> points,
                double reach_m);
 

@@ -250,7 +250,7 @@ bool ObjectLayer::Decide(Map& map, ObjectId id, const KeyframeProposal& proposal
     object.absent_since = evidence.first_through.value_or(now);
     map.SetObject(std::move(object));
     // Not left to SweepLeftPlaces(): the first look through may be long ago, or by another clock.
-    SweepPlace(map, id, proposal, options_.objects);
+    SweepPlaces(map, {&id, 1}, proposal, options_.objects);
     changes_.OnGone(map, id, now, evidence.num_through, session);
     return true;
   }
@@ -292,14 +292,15 @@ void ObjectLayer::Activate(Map& map, ObjectId id) const {
 
 // Little of a place may have been in view when it was found empty.
 void ObjectLayer::SweepLeftPlaces(Map& map, const KeyframeProposal& proposal) const {
+  std::vector<ObjectId> left;
   for (const ObjectId id : map.Objects()) {
     const MapObject& object = *map.FindObject(id);
     if (object.map != map_id_ || object.state != ObjectState::kAbsent || !object.absent_since)
       continue;
     const double since_s = SecondsBetween(proposal.data->stamp, *object.absent_since);
-    if (since_s >= 0.0 && since_s <= options_.objects.sweep_for_s)
-      SweepPlace(map, id, proposal, options_.objects);
+    if (since_s >= 0.0 && since_s <= options_.objects.sweep_for_s) left.push_back(id);
   }
+  SweepPlaces(map, left, proposal, options_.objects);
 }
 
 // What stood where a new thing stands, and has not been seen since, is gone.

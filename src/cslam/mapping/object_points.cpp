@@ -21,6 +21,32 @@ bool ShouldBelong(const Map& map, const MapPoint& point, ObjectId object,
   return 2 * on >= static_cast<int>(point.observations.size());
 }
 
+// The box of a thing that has gone, and some room around it.
+struct LeftPlace {
+  ObjectId object;
+  MapId map;
+  Eigen::Vector3d center_world = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d R_box_world = Eigen::Matrix3d::Identity();
+  Eigen::Array3d half_m = Eigen::Array3d::Zero();
+
+  bool Contains(const Eigen::Vector3d& p_world) const {
+    const Eigen::Vector3d offset = p_world - center_world;
+    if (offset.squaredNorm() > half_m.matrix().squaredNorm()) return false;
+    return ((R_box_world * offset).array().abs() <= half_m).all();
+  }
+};
+
+LeftPlace PlaceOf(const MapView& map, const MapObject& object, double margin_m) {
+  const Se3 T_world_object = map.T_world_object(object);
+  LeftPlace place;
+  place.object = object.id;
+  place.map = object.map;
+  place.center_world = T_world_object * object.box.center;
+  place.R_box_world = (T_world_object.R() * object.box.rotation.toRotationMatrix()).transpose();
+  place.half_m = 0.5 * object.box.size_m.array() + margin_m;
+  return place;
+}
+
 }  // namespace
 
 void AssignPoints(Map& map, KeyframeId keyframe, std::span<const PointId> points,
@@ -43,26 +69,25 @@ void AssignPoints(Map& map, KeyframeId keyframe, std::span<const PointId> points
   }
 }
 
-void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal,
-                const MapObjectOptions& options) {
-  const MapObject& object = *map.FindObject(id);
+void SweepPlaces(Map& map, std::span<const ObjectId> gone, const KeyframeProposal& proposal,
+                 const MapObjectOptions& options) {
   const DepthView& view = proposal.objects.view;
-  if (view.empty()) return;
-  const Se3 T_object_world = map.T_world_object(object).Inverse();
+  if (view.empty() || gone.empty()) return;
+  std::vector<LeftPlace> places;
+  for (const ObjectId id : gone)
+    places.push_back(PlaceOf(map, *map.FindObject(id), options.sweep_margin_m));
   const Se3 T_camera_world = map.FindKeyframe(proposal.id)->T_world_camera.Inverse();
-  const Eigen::Vector3d half =
-      0.5 * object.box.size_m + Eigen::Vector3d::Constant(options.sweep_margin_m);
-  const Eigen::Matrix3d R_box = object.box.rotation.toRotationMatrix().transpose();
   const DepthSampler sampler{&view.depth_mm, view.step, &view.camera, false};
   for (std::size_t i = 0; i < map.num_point_ids(); ++i) {
     const MapPoint* point = map.FindPoint(PointId(static_cast<std::uint32_t>(i)));
-    if (point == nullptr || point->object.valid() || point->map != object.map) continue;
-    const Eigen::Vector3d p = T_object_world * point->p_world;
-    const Eigen::Vector3d p_box = R_box * (p - object.box.center);
-    if ((p_box.cwiseAbs().array() > half.array()).any()) continue;
-    const Eigen::Vector3f sample = point->p_world.cast<float>();
-    const ExpectedView seen = LookAtPlace({&sample, 1}, T_camera_world, sampler, 0.0, options.view);
-    if (seen.num_through > 0) map.AssignPoint(point->id, id);
+    if (point == nullptr || point->object.valid()) continue;
+    const auto place = std::find_if(places.begin(), places.end(), [&](const LeftPlace& one) {
+      return one.map == point->map && one.Contains(point->p_world);
+    });
+    if (place == places.end()) continue;
+    const PointVerdict verdict =
+        LookAtPoint(T_camera_world * point->p_world, sampler, 0.0, options.view);
+    if (verdict == PointVerdict::kThrough) map.AssignPoint(point->id, place->object);
   }
 }
 

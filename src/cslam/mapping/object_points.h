@@ -20,9 +20,9 @@ void AssignPoints(Map& map, KeyframeId keyframe, std::span<const PointId> points
                   const std::map<TrackId, ObjectId>& objects_of_tracks,
                   const ObjectClasses& classes);
 
-// Gives a thing that is gone the points in and around its box that nobody had named, as far as the
-// keyframe looks through them as well.
-void SweepPlace(Map& map, ObjectId id, const KeyframeProposal& proposal,
-                const MapObjectOptions& options);
+// Gives things that are gone the points in and around their boxes that nobody had named, as far as
+// the keyframe looks through them as well.
+void SweepPlaces(Map& map, std::span<const ObjectId> gone, const KeyframeProposal& proposal,
+                 const MapObjectOptions& options);
 
 }  // namespace cslam

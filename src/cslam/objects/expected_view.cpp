@@ -148,19 +148,34 @@ std::optional<cv::Point> PixelOfSurface(const DepthView& view, const Eigen::Vect
   return cv::Point(u, v);
 }
 
+std::vector<cv::Point> PixelsOfStanding(std::span<const Eigen::Vector3f> samples,
+                                        const Se3& T_camera_samples, const DepthView& view,
+                                        const ExpectedViewOptions& options) {
+  std::vector<cv::Point> pixels;
+  pixels.reserve(samples.size());
+  for (const Eigen::Vector3f& sample : samples) {
+    const Eigen::Vector3d p = T_camera_samples * sample.cast<double>();
+    if (const auto pixel = PixelOfSurface(view, p, options.ToleranceM(p.z())))
+      pixels.push_back(*pixel);
+  }
+  return pixels;
+}
+
+StandingSurface CoveredBy(const cv::Mat& region, std::span<const cv::Point> standing,
+                          std::size_t num_samples) {
+  StandingSurface surface;
+  surface.num_samples = static_cast<int>(num_samples);
+  surface.num_standing = static_cast<int>(standing.size());
+  for (const cv::Point& pixel : standing)
+    surface.num_covered += region.at<std::uint8_t>(pixel) != 0 ? 1 : 0;
+  return surface;
+}
+
 StandingSurface FindStanding(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
                              const DepthView& view, const cv::Mat& region,
                              const ExpectedViewOptions& options) {
-  StandingSurface surface;
-  surface.num_samples = static_cast<int>(samples.size());
-  for (const Eigen::Vector3f& sample : samples) {
-    const Eigen::Vector3d p = T_camera_samples * sample.cast<double>();
-    const auto pixel = PixelOfSurface(view, p, options.ToleranceM(p.z()));
-    if (!pixel) continue;
-    ++surface.num_standing;
-    surface.num_covered += region.at<std::uint8_t>(*pixel) != 0 ? 1 : 0;
-  }
-  return surface;
+  return CoveredBy(region, PixelsOfStanding(samples, T_camera_samples, view, options),
+                   samples.size());
 }
 
 }  // namespace cslam

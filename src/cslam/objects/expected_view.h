@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace cslam {
 
@@ -105,7 +106,16 @@ struct StandingSurface {
   }
 };
 
-// region: CV_8UC1 of the view's size, non-zero inside.
+// The pixels at which samples stand where they are expected.
+std::vector<cv::Point> PixelsOfStanding(std::span<const Eigen::Vector3f> samples,
+                                        const Se3& T_camera_samples, const DepthView& view,
+                                        const ExpectedViewOptions& options);
+
+// region: CV_8UC1 of the view's size, non-zero inside. standing: of num_samples.
+StandingSurface CoveredBy(const cv::Mat& region, std::span<const cv::Point> standing,
+                          std::size_t num_samples);
+
+// Both together.
 StandingSurface FindStanding(std::span<const Eigen::Vector3f> samples, const Se3& T_camera_samples,
                              const DepthView& view, const cv::Mat& region,
                              const ExpectedViewOptions& options);

@@ -36,4 +36,24 @@ T MedianOf(std::vector<T> values) {
   return ValueOfRank(std::move(values), rank);
 }
 
+template <typename T>
+struct ValueRange {
+  T min{};
+  T max{};
+  T length() const { return max - min; }
+  T middle() const { return (min + max) / 2; }
+};
+
+// What the values lie between, the least num_out and the largest num_out of them left out. There
+// must be more than twice as many. Move values in where they are of no more use.
+template <typename T>
+ValueRange<T> InnerRange(std::vector<T> values, std::size_t num_out) {
+  CSLAM_CHECK(2 * num_out < values.size(), "{} of {} values", num_out, values.size());
+  const auto min = values.begin() + static_cast<std::ptrdiff_t>(num_out);
+  const auto max = values.end() - 1 - static_cast<std::ptrdiff_t>(num_out);
+  std::nth_element(values.begin(), min, values.end());
+  if (min != max) std::nth_element(min + 1, max, values.end());
+  return {*min, *max};
+}
+
 }  // namespace cslam

@@ -22,6 +22,18 @@ TEST(QuantileOf, HasTwoMiddlesWhereTheNumberIsEven) {
   EXPECT_EQ(MedianOf(std::vector{7.0}), 7.0);
 }
 
+TEST(InnerRange, LeavesTheOutermostOut) {
+  const std::vector<double> values{5.0, 1.0, 9.0, 3.0, 7.0};
+  EXPECT_EQ(InnerRange(values, 0).min, 1.0);
+  EXPECT_EQ(InnerRange(values, 0).max, 9.0);
+  EXPECT_EQ(InnerRange(values, 1).min, 3.0);
+  EXPECT_EQ(InnerRange(values, 1).max, 7.0);
+  EXPECT_EQ(InnerRange(values, 1).length(), 4.0);
+  EXPECT_EQ(InnerRange(values, 1).middle(), 5.0);
+  EXPECT_EQ(InnerRange(values, 2).length(), 0.0);
+  EXPECT_THROW(InnerRange(values, 3), InternalError);
+}
+
 TEST(QuantileOf, NeedsValues) {
   EXPECT_THROW(QuantileOf(std::vector<double>{}, 0.5), InternalError);
   EXPECT_THROW(MedianOf(std::vector<double>{}), InternalError);
