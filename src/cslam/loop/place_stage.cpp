@@ -12,6 +12,7 @@ void Describe(OptionList& list, PlaceOptions& o) {
   list.Add("relocalise", o.relocalise, "Look for the place of frames that tracking lost.");
   list.Group("index", o.index);
   list.Group("loop", o.loop);
+  list.Group("circuit", o.circuit);
   list.Group("relocaliser", o.relocaliser);
 }
 
@@ -20,13 +21,16 @@ PlaceStage::PlaceStage(const Camera& camera, const OrbOptions& orb, const DepthO
     : options_(options),
       index_(options.index),
       closer_(MakePlaceSensor(camera, orb, depth), options.loop),
+      circuits_(options.circuit),
       relocaliser_(MakePlaceSensor(camera, orb, depth), options.relocaliser) {}
 
-LoopOutcome PlaceStage::OnKeyframe(KeyframeId keyframe, const MapSnapshot& snapshot) {
+PlaceOutcome PlaceStage::OnKeyframe(KeyframeId keyframe, const MapSnapshot& snapshot) {
   const Keyframe* seen = snapshot.map.FindKeyframe(keyframe);
   if (seen == nullptr) return {};  // culled at once
-  LoopOutcome outcome;
-  if (options_.close_loops) outcome = closer_.Process(keyframe, snapshot.map, index_);
+  PlaceOutcome outcome;
+  if (options_.close_loops) outcome.loop = closer_.Process(keyframe, snapshot.map, index_);
+  const bool is_circuit = circuits_.IsClosedBy(*seen, snapshot.map);
+  outcome.closes_circuit = is_circuit && !outcome.loop.correction;
   File(*seen, snapshot.map);
   return outcome;
 }
@@ -59,6 +63,7 @@ PlaceHint PlaceStage::Find(const LostFrame& frame, const MapSnapshot& snapshot) 
 void PlaceStage::Reset() {
   index_ = PlaceIndex(options_.index);
   closer_.Reset();
+  circuits_.Reset();
 }
 
 }  // namespace cslam

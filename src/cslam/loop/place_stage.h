@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cslam/loop/circuit_watch.h"
 #include "cslam/loop/loop_closer.h"
 #include "cslam/loop/place_index.h"
 #include "cslam/loop/relocaliser.h"
@@ -19,9 +20,15 @@ struct PlaceOptions {
   bool relocalise = true;
   PlaceIndexOptions index;
   LoopOptions loop;
+  CircuitOptions circuit;
   RelocaliserOptions relocaliser;
 };
 void Describe(OptionList& list, PlaceOptions& options);
+
+struct PlaceOutcome {
+  LoopOutcome loop;
+  bool closes_circuit = false;  // without a loop: its map is to be adjusted as a whole
+};
 
 // All that recognises places: the index of keyframes, loop closing and relocalisation. Synchronous
 // and single-threaded; reads snapshots only.
@@ -31,7 +38,7 @@ class PlaceStage {
              const PlaceOptions& options);
 
   // For every keyframe once the mapper has refined it: looks for places seen before, then files it.
-  LoopOutcome OnKeyframe(KeyframeId keyframe, const MapSnapshot& snapshot);
+  PlaceOutcome OnKeyframe(KeyframeId keyframe, const MapSnapshot& snapshot);
 
   // Searches all maps for the place of a frame that tracking lost.
   PlaceHint Find(const LostFrame& frame, const MapSnapshot& snapshot) const;
@@ -47,6 +54,7 @@ class PlaceStage {
   const PlaceOptions options_;
   PlaceIndex index_;
   LoopCloser closer_;
+  CircuitWatch circuits_;
   Relocaliser relocaliser_;
 };
 

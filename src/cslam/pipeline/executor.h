@@ -65,6 +65,7 @@ class Slam::InlineExecutor : public Slam::Executor {
 
  private:
   void RecognisePlaces(KeyframeId keyframe);
+  void AdjustFully(MapId map);
   void Publish(const MapUpdate& update);
 
   std::unique_ptr<Detector> detector_;

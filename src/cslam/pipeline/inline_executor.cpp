@@ -34,18 +34,21 @@ TrackingResult Slam::InlineExecutor::Track(std::shared_ptr<const RgbdFrame> fram
 }
 
 void Slam::InlineExecutor::RecognisePlaces(KeyframeId keyframe) {
-  const LoopOutcome outcome = places_.OnKeyframe(keyframe, *snapshot_);
-  for (const LoopRecord& record : outcome.records) {
+  const PlaceOutcome outcome = places_.OnKeyframe(keyframe, *snapshot_);
+  for (const LoopRecord& record : outcome.loop.records) {
     for (const auto& sink : sinks_)
       sink->OnLoop(record);
   }
-  if (!outcome.correction) return;
-  const MapUpdate corrected = mapper_.Apply(*outcome.correction);
+  if (outcome.closes_circuit) AdjustFully(snapshot_->map.FindKeyframe(keyframe)->map);
+  if (!outcome.loop.correction) return;
+  const MapUpdate corrected = mapper_.Apply(*outcome.loop.correction);
   Publish(corrected);
-  if (!corrected.correction->is_applied()) return;
-  if (const auto refinement = adjuster_.Adjust(*snapshot_, MapAfter(*outcome.correction))) {
+  if (corrected.correction->is_applied()) AdjustFully(MapAfter(*outcome.loop.correction));
+}
+
+void Slam::InlineExecutor::AdjustFully(MapId map) {
+  if (const auto refinement = adjuster_.Adjust(*snapshot_, map))
     Publish(mapper_.Apply(*refinement));
-  }
 }
 
 void Slam::InlineExecutor::Publish(const MapUpdate& update) {

@@ -211,10 +211,7 @@ void Slam::ThreadedExecutor::Stages::RunPlaces() {
     if (const auto* refined = std::get_if<RefinedKeyframe>(&*input)) {
       RecognisePlaces(*refined);
     } else if (const auto* corrected = std::get_if<CorrectedMap>(&*input)) {
-      auto refinement = adjuster.Adjust(*corrected->snapshot, corrected->map);
-      if (refinement) {
-        SendCorrection(std::make_unique<const PoseRefinement>(std::move(*refinement)));
-      }
+      SendRefinement(*corrected->snapshot, corrected->map);
     } else if (const auto* lost = std::get_if<LostFrame>(&*input)) {
       const auto snapshot = latest.Get();
       newest_hint.Publish(std::make_shared<const PlaceHint>(
@@ -234,12 +231,19 @@ void Slam::ThreadedExecutor::Stages::RunPlaces() {
 }
 
 void Slam::ThreadedExecutor::Stages::RecognisePlaces(const RefinedKeyframe& refined) {
-  LoopOutcome outcome = places.OnKeyframe(refined.keyframe, *refined.snapshot);
-  for (LoopRecord& record : outcome.records)
+  PlaceOutcome outcome = places.OnKeyframe(refined.keyframe, *refined.snapshot);
+  for (LoopRecord& record : outcome.loop.records)
     events.Push(std::move(record));
-  if (outcome.correction) {
-    SendCorrection(std::make_unique<const MapCorrection>(std::move(*outcome.correction)));
+  if (outcome.loop.correction) {
+    SendCorrection(std::make_unique<const MapCorrection>(std::move(*outcome.loop.correction)));
   }
+  if (outcome.closes_circuit)
+    SendRefinement(*refined.snapshot, refined.snapshot->map.FindKeyframe(refined.keyframe)->map);
+}
+
+void Slam::ThreadedExecutor::Stages::SendRefinement(const MapSnapshot& snapshot, MapId map) {
+  if (auto refinement = adjuster.Adjust(snapshot, map))
+    SendCorrection(std::make_unique<const PoseRefinement>(std::move(*refinement)));
 }
 
 // To the mapper, or past its queue once no more proposals come and that is closed.

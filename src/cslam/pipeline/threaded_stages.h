@@ -75,6 +75,7 @@ struct Slam::ThreadedExecutor::Stages {
   void Correct(const MapperInput& input);
   void RunPlaces();
   void RecognisePlaces(const RefinedKeyframe& refined);
+  void SendRefinement(const MapSnapshot& snapshot, MapId map);
   void SendCorrection(MapperInput correction);
   void RunSinks();
   void Publish(const MapUpdate& update);
