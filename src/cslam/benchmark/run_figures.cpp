@@ -26,6 +26,12 @@ constexpr std::array kFigures = {
     FigureInfo{"change_f1", "changes F1", &F::change_f1, 1.0, 2},
     FigureInfo{"change_precision", "precision", &F::change_precision, 1.0, 2},
     FigureInfo{"change_recall", "recall", &F::change_recall, 1.0, 2},
+    FigureInfo{"objects_true", "true", &F::objects_true, 1.0, 0},
+    FigureInfo{"objects_reported", "reported", &F::objects_reported, 1.0, 0},
+    FigureInfo{"objects_matched", "matched", &F::objects_matched, 1.0, 0},
+    FigureInfo{"changes_true", "true", &F::changes_true, 1.0, 0},
+    FigureInfo{"changes_reported", "reported", &F::changes_reported, 1.0, 0},
+    FigureInfo{"changes_matched", "matched", &F::changes_matched, 1.0, 0},
     FigureInfo{"ghost_share", "ghosts %", &F::ghost_share, 100.0, 2},
     FigureInfo{"active_share", "active %", &F::active_share, 100.0, 1},
     FigureInfo{"delay_s", "delay s", &F::delay_s, 1.0, 1},
@@ -85,6 +91,9 @@ RunEvaluation EvaluateRun(const SceneTruth& truth, const SceneRun& run,
     f.object_f1 = objects.objects.all.F1();
     f.object_precision = objects.objects.all.Precision();
     f.object_recall = objects.objects.all.Recall();
+    f.objects_true = objects.objects.all.num_true;
+    f.objects_reported = objects.objects.all.num_reported;
+    f.objects_matched = objects.objects.all.num_matched;
     f.active_share = objects.active.Share();
     if (objects.ghosts) f.ghost_share = objects.ghosts->Share();
   } else if (run.map_points) {
@@ -97,6 +106,9 @@ RunEvaluation EvaluateRun(const SceneTruth& truth, const SceneRun& run,
     f.change_f1 = changes.all.F1();
     f.change_precision = changes.all.Precision();
     f.change_recall = changes.all.Recall();
+    f.changes_true = changes.all.num_true;
+    f.changes_reported = changes.all.num_reported;
+    f.changes_matched = changes.all.num_matched;
     f.delay_s = changes.median_delay_s;
     f.max_delay_s = changes.max_delay_s;
   }

@@ -23,6 +23,12 @@ struct RunFigures {
   std::optional<double> change_f1;
   std::optional<double> change_precision;
   std::optional<double> change_recall;
+  std::optional<double> objects_true;  // counts, see DetectionScore
+  std::optional<double> objects_reported;
+  std::optional<double> objects_matched;
+  std::optional<double> changes_true;
+  std::optional<double> changes_reported;
+  std::optional<double> changes_matched;
   std::optional<double> ghost_share;
   std::optional<double> active_share;
   std::optional<double> delay_s;  // of reported changes, median

@@ -33,6 +33,21 @@ std::optional<Spread> BenchmarkResult::Of(const std::string& sequence, ObjectLay
   return SpreadOf(values);
 }
 
+PooledScores BenchmarkResult::Pooled(const std::string& sequence, ObjectLayer layer) const {
+  const auto count = [](const std::optional<double>& value) {
+    return static_cast<int>(std::lround(value.value_or(0.0)));
+  };
+  PooledScores pooled;
+  for (const FinishedRun& run : runs) {
+    const bool is_meant = sequence.empty() || plan.data[run.run.data].sequence == sequence;
+    if (run.run.layer != layer || !is_meant || !run.figures) continue;
+    const RunFigures& f = *run.figures;
+    pooled.objects += {count(f.objects_true), count(f.objects_reported), count(f.objects_matched)};
+    pooled.changes += {count(f.changes_true), count(f.changes_reported), count(f.changes_matched)};
+  }
+  return pooled;
+}
+
 std::optional<Spread> BenchmarkResult::OfOther(const std::string& sequence,
                                                const std::string& label) const {
   std::vector<std::optional<double>> values;

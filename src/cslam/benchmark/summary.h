@@ -38,6 +38,11 @@ struct OtherTrajectory {
   std::string problem;  // why there is no error
 };
 
+struct PooledScores {
+  DetectionScore objects;
+  DetectionScore changes;
+};
+
 struct BenchmarkResult {
   BenchmarkRequest request;
   BenchmarkPlan plan;
@@ -49,6 +54,8 @@ struct BenchmarkResult {
   std::optional<Spread> Of(const std::string& sequence, ObjectLayer layer,
                            const FigureInfo& figure) const;
   std::optional<Spread> OfOther(const std::string& sequence, const std::string& label) const;
+  // What all runs of a sequence got right and wrong together; of all sequences for an empty name.
+  PooledScores Pooled(const std::string& sequence, ObjectLayer layer) const;
   // Median with the layer on over median with it off.
   std::optional<double> Ratio(const std::string& sequence, const FigureInfo& figure) const;
   // The mean of the sequences' medians; nothing if one has none.

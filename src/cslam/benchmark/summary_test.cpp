@@ -29,6 +29,24 @@ TEST(BenchmarkResult, ComparesMediansOfBothLayers) {
   EXPECT_FALSE(result.Of("onechair", ObjectLayer::kOn, FigureOf("object_f1")).has_value());
 }
 
+TEST(BenchmarkResult, AddsUpWhatAllRunsOfASequenceGotRight) {
+  BenchmarkResult result = test::TwoSeeds();
+  for (const std::size_t on : {0U, 2U}) {
+    RunFigures& figures = *result.runs[on].figures;
+    figures.changes_true = 2.0;
+    figures.changes_reported = 3.0;
+    figures.changes_matched = on == 0 ? 2.0 : 1.0;
+  }
+  const PooledScores pooled = result.Pooled("onechair", ObjectLayer::kOn);
+  EXPECT_EQ(pooled.changes.num_true, 4);
+  EXPECT_EQ(pooled.changes.num_reported, 6);
+  EXPECT_NEAR(pooled.changes.F1().value(), 0.6, 1e-12);
+  EXPECT_EQ(pooled.objects.num_true, 0);
+  EXPECT_EQ(result.Pooled("", ObjectLayer::kOn).changes.num_matched, 3);
+  EXPECT_EQ(result.Pooled("static", ObjectLayer::kOn).changes.num_true, 0);
+  EXPECT_EQ(result.Pooled("onechair", ObjectLayer::kOff).changes.num_true, 0);
+}
+
 TEST(BenchmarkResult, DoesNotCountRunsThatFailed) {
   BenchmarkResult result = test::TwoSeeds();
   result.runs[0].figures.reset();

@@ -69,6 +69,40 @@ ReportTable FigureTable(const BenchmarkResult& result, std::string title, std::s
   return table;
 }
 
+std::vector<std::string> ScoreCells(const DetectionScore& score) {
+  return {NumberText(score.F1(), 1.0, 2),
+          fmt::format("{} of {}", score.num_matched, score.num_true),
+          fmt::format("{}", score.num_reported - score.num_matched)};
+}
+
+// Of sequences in which little happens a single run says little.
+ReportTable PooledTable(const BenchmarkResult& result) {
+  ReportTable table{
+      .title = "All runs together",
+      .note = "Over all seeds and repeats, with the layer on; wrong: reported, and not true.",
+      .columns = {"sequence", "objects F1", "matched", "wrong", "changes F1", "matched", "wrong"},
+      .rows = {}};
+  const auto add = [&](const std::string& name, const std::string& sequence) {
+    const PooledScores pooled = result.Pooled(sequence, ObjectLayer::kOn);
+    if (pooled.objects.num_true + pooled.objects.num_reported + pooled.changes.num_true +
+            pooled.changes.num_reported ==
+        0) {
+      return;
+    }
+    std::vector<std::string> row{name};
+    for (const DetectionScore& score : {pooled.objects, pooled.changes}) {
+      for (std::string& cell : ScoreCells(score))
+        row.push_back(std::move(cell));
+    }
+    table.rows.push_back(std::move(row));
+  };
+  const std::vector<std::string> sequences = result.plan.Sequences();
+  for (const std::string& sequence : sequences)
+    add(sequence, sequence);
+  if (sequences.size() > 1) add("all", "");
+  return table;
+}
+
 ReportTable FailureTable(const BenchmarkResult& result) {
   ReportTable table{"What failed", "", {"run", "why"}, {}};
   for (const FinishedRun& run : result.runs) {
@@ -98,6 +132,7 @@ std::vector<ReportTable> MakeTables(const BenchmarkResult& result) {
                   "What the map said at the end; delay: from a clear view to the report.",
                   {"object_f1", "object_precision", "object_recall", "change_f1",
                    "change_precision", "change_recall", "delay_s", "max_delay_s"}),
+      PooledTable(result),
       FigureTable(result, "Maps and loops",
                   "Ghosts: active points where something was, of all. Active: of the points of "
                   "settled, present objects.",
