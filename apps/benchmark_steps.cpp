@@ -52,8 +52,37 @@ RenderArguments RenderOf(const BenchmarkArguments& arguments, const PlannedData&
   return render;
 }
 
+std::string_view NameOf(Look look) {
+  switch (look) {
+    case Look::kAuto:
+      return "";
+    case Look::kPackages:
+      return "packages";
+    case Look::kProcedural:
+      return "procedural";
+  }
+  throw InternalError("look", "no such look", std::source_location::current());
+}
+
 RenderingState StateOf(const RenderArguments& render, const PlannedData& data) {
-  return StateOf(data, render.request, ProgramName());
+  const RenderingState state = StateOf(data, render.request, NameOf(render.look), ProgramName());
+  if (state == RenderingState::kOutdated && fs::is_symlink(data.folder)) {
+    throw Error(
+        "'{}' is a link to a rendering that another version of the program began; remove the link, "
+        "or render there anew ('changing-slam dataset render --force')",
+        data.folder.string());
+  }
+  return state;
+}
+
+// Beside the rendering if that must not be touched yet.
+RenderEstimate Estimate(RenderArguments render, RenderingState state) {
+  if (state != RenderingState::kOutdated) return EstimateRendering(render);
+  render.folder += ".estimate";
+  render.existing = ExistingFolder::kReplace;
+  const RenderEstimate estimate = EstimateRendering(render);
+  fs::remove_all(render.folder);
+  return estimate;
 }
 
 std::vector<std::string> RunWords(const BenchmarkArguments& arguments, const PlannedRun& run,
@@ -95,6 +124,7 @@ bool IsDone(const BenchmarkArguments& arguments, const PlannedRun& run, const Pl
 // What is left to do, and what that will take.
 struct Outlook {
   int renderings = 0;
+  int replaced = 0;  // of these, what another version began
   int runs = 0;
   double render_s = 0.0;
   double run_s = 0.0;
@@ -106,14 +136,14 @@ Outlook LookAhead(const BenchmarkArguments& arguments, const BenchmarkPlan& plan
   Outlook outlook;
   std::map<std::string, RenderEstimate> estimates;
   for (const PlannedData& data : plan.data) {
-    RenderArguments render = RenderOf(arguments, data);
+    const RenderArguments render = RenderOf(arguments, data);
     const RenderingState state = StateOf(render, data);
     if (state == RenderingState::kComplete || InterruptRequested()) continue;
     ++outlook.renderings;
+    outlook.replaced += state == RenderingState::kOutdated ? 1 : 0;
     if (!estimates.contains(data.sequence)) {
       fmt::print(stderr, "a few frames of '{}', to know how long it will take\n", data.sequence);
-      if (state == RenderingState::kOutdated) render.existing = ExistingFolder::kReplace;
-      estimates[data.sequence] = EstimateRendering(render);
+      estimates[data.sequence] = Estimate(render, state);
     }
     const RenderEstimate& estimate = estimates.at(data.sequence);
     outlook.render_s += estimate.seconds;
@@ -139,6 +169,10 @@ void Announce(const Outlook& outlook, const BenchmarkPlan& plan, const fs::path&
       "{} of {} renderings to do (about {}) and {} of {} runs (about {}), about {} in '{}'\n",
       outlook.renderings, plan.data.size(), TimeText(outlook.render_s), outlook.runs,
       plan.runs.size(), TimeText(outlook.run_s), FormatBytes(outlook.bytes), folder.string());
+  if (outlook.replaced > 0) {
+    fmt::print(stderr, "{} of the renderings replace what another version of the program began\n",
+               outlook.replaced);
+  }
 }
 
 // False: the user ended it.

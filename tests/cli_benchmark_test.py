@@ -95,15 +95,34 @@ class BenchmarkTest(CliTestCase):
         self.assertFalse((self.folder / "runs").exists())
         self.assertFalse((self.folder / "report.md").exists())
 
-    def test_renders_anew_what_another_version_began(self):
+    def begin_by_another_version(self):
+        """Returns the record of the rendering begun, and a frame of it."""
         benchmark(self.folder)
-        record = self.folder / "data" / "sitting_xyz-short-1" / "render.json"
+        rendering = self.folder / "data" / "sitting_xyz-short-1"
+        record = rendering / "render.json"
         begun = json.loads(record.read_text(encoding="utf-8"))
         record.write_text(json.dumps(begun | {"program": "an older one"}), encoding="utf-8")
+        return record, next((rendering / "rgb").iterdir())
+
+    def test_renders_anew_what_another_version_began_but_not_before_it_may(self):
+        record, frame = self.begin_by_another_version()
         result = benchmark(self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(json.loads(record.read_text(encoding="utf-8"))["program"],
-                         begun["program"])
+        self.assertIn("1 of the renderings replace what another version", result.stderr)
+        self.assertIn("an older one", record.read_text(encoding="utf-8"))
+        self.assertTrue(frame.exists())
+        self.assertEqual([p.name for p in record.parents[1].iterdir()], ["sitting_xyz-short-1"])
+        result = benchmark(self.folder, "--yes")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("an older one", record.read_text(encoding="utf-8"))
+
+    def test_leaves_alone_what_a_link_leads_to(self):
+        record, frame = self.begin_by_another_version()
+        elsewhere = self.folder.parent / "elsewhere"
+        record.parent.rename(elsewhere)
+        record.parent.symlink_to(elsewhere)
+        self.assert_one_line_error(benchmark(self.folder, "--yes"), 1, "remove the link")
+        self.assertTrue((elsewhere / "rgb" / frame.name).exists())
 
     def test_goes_on_after_an_interruption(self):
         command = [binary(), "benchmark", "--out", self.folder, *TINY, "--yes"]

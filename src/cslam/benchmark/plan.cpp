@@ -9,6 +9,7 @@
 #include "cslam/util/options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -26,12 +27,14 @@ std::vector<std::string> AllNames() {
 }
 
 // As it is there, but with the parameters that were asked for.
-RenderRecord Wanted(RenderRecord record, const PlannedData& data, const RenderRequest& request) {
+RenderRecord Wanted(RenderRecord record, const PlannedData& data, const RenderRequest& request,
+                    std::string_view look) {
   const auto entries = AllSequences();
   const auto entry = std::find_if(entries.begin(), entries.end(), [&](const SequenceEntry& one) {
     return one.name == data.sequence;
   });
   CSLAM_CHECK(entry != entries.end());
+  if (!look.empty()) record.look = look;
   record.sequence = data.sequence;
   record.seed = data.seed;
   record.width_px = request.width;
@@ -96,14 +99,14 @@ BenchmarkPlan MakePlan(const BenchmarkRequest& request) {
   return plan;
 }
 
-RenderingState StateOf(const PlannedData& data, const RenderRequest& request,
+RenderingState StateOf(const PlannedData& data, const RenderRequest& request, std::string_view look,
                        std::string_view program) {
   const bool is_complete = std::filesystem::exists(data.folder / kCameraFile);
   const std::filesystem::path file = data.folder / kRenderFile;
   if (!std::filesystem::exists(file))
     return is_complete ? RenderingState::kComplete : RenderingState::kUnfinished;
   const RenderRecord there = ReadRenderRecord(file);
-  const auto differences = Differences(there, Wanted(there, data, request));
+  const auto differences = Differences(there, Wanted(there, data, request, look));
   if (!differences.empty()) {
     throw Error("'{}' holds another rendering: {}; choose another folder, or delete it",
                 data.folder.string(), fmt::join(differences, ", "));

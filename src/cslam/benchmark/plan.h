@@ -66,8 +66,9 @@ enum class RenderingState {
   kComplete,    // by whatever version
 };
 
-// request: what was asked for. Throws Error if the folder holds a rendering of something else.
-RenderingState StateOf(const PlannedData& data, const RenderRequest& request,
+// request, look ("packages", "procedural", or empty: any): what was asked for. Throws Error if the
+// folder holds a rendering of something else.
+RenderingState StateOf(const PlannedData& data, const RenderRequest& request, std::string_view look,
                        std::string_view program);
 
 // Whether a run folder is complete and of a run of this program (commit) with these arguments.

@@ -60,7 +60,9 @@ class RenderingStateTest : public testing::Test {
     record.noise = SensorNoise::kD435i;
     WriteRenderRecord(folder_.path() / kRenderFile, record);
   }
-  RenderingState State(std::string_view program) const { return StateOf(data_, request_, program); }
+  RenderingState State(std::string_view program, std::string_view look = "") const {
+    return StateOf(data_, request_, look, program);
+  }
 
   const TestFolder folder_;
   const PlannedData data_{"static", 3, folder_.path()};
@@ -70,7 +72,7 @@ class RenderingStateTest : public testing::Test {
 TEST_F(RenderingStateTest, GoesOnWithWhatTheSameProgramBegan) {
   EXPECT_EQ(State("program 1"), RenderingState::kUnfinished);
   EXPECT_EQ(State("program 2"), RenderingState::kOutdated);
-  EXPECT_EQ(StateOf({"static", 3, folder_.path() / "none"}, request_, "program 1"),
+  EXPECT_EQ(StateOf({"static", 3, folder_.path() / "none"}, request_, "", "program 1"),
             RenderingState::kUnfinished);
 }
 
@@ -85,6 +87,12 @@ TEST_F(RenderingStateTest, RefusesARenderingOfSomethingElse) {
   request_.height = 240;
   EXPECT_THAT(MessageOf([&] { State("program 1"); }),
               HasSubstr("the size is 640x480 there, 320x240 was asked for"));
+  request_ = {};
+  request_.num_frames = 20;
+  request_.is_short = true;
+  EXPECT_EQ(State("program 1", "procedural"), RenderingState::kComplete);
+  EXPECT_THAT(MessageOf([&] { State("program 1", "packages"); }),
+              HasSubstr("the look is procedural there, packages was asked for"));
 }
 
 TEST(IsRunDone, TakesOnlyCompleteRunsOfTheSameProgramAndArguments) {

@@ -5,7 +5,6 @@
 #include "cslam/util/options.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace cslam {
 
@@ -17,10 +16,12 @@ void Describe(OptionList& list, CircuitOptions& o) {
            "That two keyframes share if they see the same part.");
   list.Add("min_keyframes_away", o.min_keyframes_away, {1, 10'000}, "keyframes",
            "In a row that must not have been back.");
+  list.Add("min_share_away", o.min_share_away, {0.0, 1.0}, "",
+           "And at least this share of the map's keyframes: to adjust a large map takes long.");
   list.Add("confirmations", o.confirmations, {1, 1000}, "keyframes", "In a row that must be back.");
 }
 
-// Shares points with keyframes of long ago, and none with those in between.
+// Shares points with keyframes of long ago, and next to none with those in between.
 bool CircuitWatch::IsBack(const Keyframe& keyframe, const MapView& map) const {
   int num_between = 0;
   bool has_shared = false;
@@ -39,15 +40,28 @@ bool CircuitWatch::IsBack(const Keyframe& keyframe, const MapView& map) const {
   return has_shared && num_between >= options_.min_keyframes_away;
 }
 
+// A short way makes little drift, and of a large map more has to be new to be worth the time.
+int CircuitWatch::MinAway(const MapView& map) const {
+  return std::max(
+      options_.min_keyframes_away,
+      static_cast<int>(options_.min_share_away * static_cast<double>(map.num_keyframes())));
+}
+
 bool CircuitWatch::IsClosedBy(const Keyframe& keyframe, const MapView& map) {
   if (!options_.enabled) return false;
+  if (keyframe.map != map_) Reset();
+  map_ = keyframe.map;
   if (!IsBack(keyframe, map)) {
     ++num_away_;
     num_back_ = 0;
     return false;
   }
-  if (num_away_ < options_.min_keyframes_away || ++num_back_ < options_.confirmations) return false;
-  num_away_ = num_back_ = 0;
+  if (num_away_ < MinAway(map)) {
+    num_away_ = 0;
+    return false;
+  }
+  if (++num_back_ < options_.confirmations) return false;
+  Reset();
   return true;
 }
 

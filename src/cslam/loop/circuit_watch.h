@@ -12,7 +12,8 @@ class OptionList;
 struct CircuitOptions {
   bool enabled = true;
   int min_shared_points = 15;   // of two keyframes that see the same part
-  int min_keyframes_away = 10;  // in a row, on the way round
+  int min_keyframes_away = 10;  // in a row, on the way round ...
+  double min_share_away = 0.1;  // ... and so much of the map
   int confirmations = 3;        // keyframes in a row that are back
 };
 void Describe(OptionList& list, CircuitOptions& options);
@@ -26,12 +27,15 @@ class CircuitWatch {
   // For every new keyframe. True once for each circuit.
   bool IsClosedBy(const Keyframe& keyframe, const MapView& map);
 
+  // Forgets the way so far: a loop has been closed.
   void Reset();
 
  private:
+  int MinAway(const MapView& map) const;
   bool IsBack(const Keyframe& keyframe, const MapView& map) const;
 
   CircuitOptions options_;
+  MapId map_;
   int num_away_ = 0;
   int num_back_ = 0;
 };

@@ -13,7 +13,7 @@
 namespace cslam {
 namespace {
 
-constexpr int kNumFeatures = 200;
+constexpr int kNumFeatures = 400;
 constexpr int kEnough = 20;  // shared points
 
 class CircuitWatchTest : public testing::Test {
@@ -82,12 +82,39 @@ TEST_F(CircuitWatchTest, IsNoneWhereTheWayIsShort) {
     EXPECT_FALSE(Add({0, Newest()}));
 }
 
-TEST_F(CircuitWatchTest, IsNoneWhileTheBeginningNeverLeftThePicture) {
+TEST_F(CircuitWatchTest, IsNoneWhileTheBeginningNeverLeavesThePicture) {
   Add({});
-  for (int i = 0; i < 9; ++i)
-    Add({0, Newest()}, 15);
-  for (int i = 0; i < 9; ++i)
-    EXPECT_FALSE(Add({9, Newest()}, 15));
+  std::vector<std::uint32_t> all{0};
+  for (std::uint32_t i = 1; i < 25; ++i) {
+    EXPECT_FALSE(Add(all, 15));
+    all.push_back(i);
+  }
+}
+
+TEST_F(CircuitWatchTest, IsNoneForManyShortWays) {
+  Add({});
+  GoOn(14);
+  for (int i = 0; i < 3; ++i)
+    Add({0, Newest()});
+  for (int way = 0; way < 5; ++way) {
+    EXPECT_EQ(GoOn(6), 0);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_FALSE(Add({0, Newest()}));
+  }
+}
+
+TEST_F(CircuitWatchTest, TakesALongerWayInALargeMap) {
+  Add({});
+  GoOn(199);
+  for (int i = 0; i < 3; ++i)
+    Add({0, Newest()});
+  GoOn(15);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_FALSE(Add({1, Newest()})) << "less than a tenth of the map";
+  GoOn(25);
+  EXPECT_FALSE(Add({1, Newest()}));
+  EXPECT_FALSE(Add({1, Newest()}));
+  EXPECT_TRUE(Add({1, Newest()}));
 }
 
 TEST_F(CircuitWatchTest, IsNoneForAFewPointsThatAreSharedByChance) {

@@ -8,7 +8,8 @@ namespace cslam {
 
 void Describe(OptionList& list, PlaceOptions& o) {
   list.Add("close_loops", o.close_loops,
-           "Correct the map where a place is seen again, and merge maps that share one.");
+           "Correct the map where a place is seen again, and merge maps that share one; without it "
+           "circuits are not adjusted either.");
   list.Add("relocalise", o.relocalise, "Look for the place of frames that tracking lost.");
   list.Group("index", o.index);
   list.Group("loop", o.loop);
@@ -29,8 +30,11 @@ PlaceOutcome PlaceStage::OnKeyframe(KeyframeId keyframe, const MapSnapshot& snap
   if (seen == nullptr) return {};  // culled at once
   PlaceOutcome outcome;
   if (options_.close_loops) outcome.loop = closer_.Process(keyframe, snapshot.map, index_);
-  const bool is_circuit = circuits_.IsClosedBy(*seen, snapshot.map);
-  outcome.closes_circuit = is_circuit && !outcome.loop.correction;
+  if (outcome.loop.correction) {
+    circuits_.Reset();
+  } else if (options_.close_loops) {
+    outcome.closes_circuit = circuits_.IsClosedBy(*seen, snapshot.map);
+  }
   File(*seen, snapshot.map);
   return outcome;
 }

@@ -219,6 +219,7 @@ CorrectionReport ApplyRefinement(Map& map, const PoseRefinement& refinement) {
   RefinePositions(map, refinement, moves, points);
   report.observations_removed = RemoveOutliers(map, refinement.outliers);
   RefreshAll(map, points);
+  map.AdvanceCorrectionEpoch();  // what else was worked out on that snapshot would move all twice
 
   report.keyframes_moved = static_cast<int>(moves.keyframes().size());
   report.keyframes_carried = moves.num_carried() + num_changed;

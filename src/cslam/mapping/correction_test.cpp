@@ -210,6 +210,19 @@ TEST_F(CorrectionTest, RefinementReplacesWhatIsUnchangedAndCarriesTheRest) {
   EXPECT_EQ(report.observations_removed, 1);
 }
 
+TEST_F(CorrectionTest, OfTwoRefinementsOfOneSnapshotTheSecondIsRefused) {
+  const KeyframeId id = map_.Keyframes().front();
+  const Se3 before = map_.FindKeyframe(id)->T_world_camera;
+  const Se3 after = Se3(Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0}) * before;
+  PoseRefinement refinement;
+  refinement.epoch = map_.correction_epoch();
+  refinement.map = MapId(0);
+  refinement.poses = {{id, before, after}};
+  EXPECT_TRUE(ApplyRefinement(map_, refinement).is_applied());
+  EXPECT_FALSE(ApplyRefinement(map_, refinement).is_applied());
+  EXPECT_NEAR(Difference(map_.FindKeyframe(id)->T_world_camera, after).distance_m, 0.0, 1e-12);
+}
+
 TEST_F(CorrectionTest, RefinementIsRefusedAfterACorrection) {
   PoseRefinement refinement;
   refinement.epoch = map_.correction_epoch();

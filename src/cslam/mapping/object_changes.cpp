@@ -171,8 +171,8 @@ bool ChangeList::Join(const MapView& map, MapChange& change, const MapChange& ot
   return true;
 }
 
-void ChangeList::OnGone(Map& map, ObjectId id, Stamp now, int num_views,
-                        std::uint32_t session) const {
+MapChange ChangeList::GoneOf(const MapView& map, ObjectId id, Stamp now, int num_views,
+                             std::uint32_t session) const {
   const MapObject& object = *map.FindObject(id);
   MapChange change;
   change.kind = MapChangeKind::kRemoved;
@@ -183,7 +183,17 @@ void ChangeList::OnGone(Map& map, ObjectId id, Stamp now, int num_views,
   change.num_absent_views = num_views;
   change.is_between_sessions = object.last_session < session;
   change.confidence = Confidence(map, change);
-  AddJoined(map, change);
+  return change;
+}
+
+void ChangeList::OnGone(Map& map, ObjectId id, Stamp now, int num_views,
+                        std::uint32_t session) const {
+  AddJoined(map, GoneOf(map, id, now, num_views, session));
+}
+
+void ChangeList::OnOriginFound(Map& map, ObjectId origin, ObjectId object, Stamp now, int num_views,
+                               std::uint32_t session) const {
+  AddJoined(map, GoneOf(map, origin, now, num_views, session), object);
 }
 
 // Whether the change and one that is told are two halves of one, and how well they go together: a
@@ -215,15 +225,18 @@ std::optional<ChangeList::Pairing> ChangeList::PairUp(const MapView& map, const 
   return is_larger ? std::optional(pairing) : std::nullopt;
 }
 
-// Adds a change, joined with the best of those that are told, later ones first. What that leaves
-// over is added in turn; since moves keep their halves and things only get larger, it ends.
-void ChangeList::AddJoined(Map& map, const MapChange& change) const {
+// Adds a change, joined with the best of those that are told, of equal ones with that of the
+// preferred object, or the later one. What that leaves over is added in turn; since moves keep
+// their halves and things only get larger, it ends.
+void ChangeList::AddJoined(Map& map, const MapChange& change, ObjectId preferred) const {
   std::vector<MapChange> changes = map.changes();
   std::optional<std::size_t> partner;
   Pairing best{change, std::nullopt, 0};
   for (std::size_t i = changes.size(); i-- > 0;) {
     const auto pairing = PairUp(map, change, changes[i]);
-    if (!pairing || pairing->rank <= best.rank) continue;
+    const bool is_preferred = pairing && preferred.valid() && pairing->rank == best.rank &&
+                              pairing->joined.new_object == preferred;
+    if (!pairing || (pairing->rank <= best.rank && !is_preferred)) continue;
     partner = i;
     best = *pairing;
   }
@@ -355,9 +368,13 @@ std::vector<ObjectId> ChangeList::CameFromNowhere(const MapView& map) const {
   return objects;
 }
 
-bool ChangeList::MayTurnUp(const MapView& map, ObjectId gone) const {
+bool ChangeList::IsToldGone(const MapView& map, ObjectId gone) const {
   const auto told = ToldDeparture(map, gone);
-  return !told || IsSingle(*told, MapChangeKind::kRemoved);
+  return told && IsSingle(*told, MapChangeKind::kRemoved);
+}
+
+bool ChangeList::MayTurnUp(const MapView& map, ObjectId gone) const {
+  return !ToldDeparture(map, gone) || IsToldGone(map, gone);
 }
 
 bool ChangeList::MayComeFrom(const MapObject& object, const MapObject& origin) const {

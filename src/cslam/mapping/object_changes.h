@@ -21,6 +21,10 @@ class ChangeList {
   // The object's place was seen without it.
   void OnGone(Map& map, ObjectId object, Stamp now, int num_views, std::uint32_t session) const;
 
+  // The same of a thing that nobody had named there: the object was it.
+  void OnOriginFound(Map& map, ObjectId origin, ObjectId object, Stamp now, int num_views,
+                     std::uint32_t session) const;
+
   // The object is believed in for the first time, or again after it was gone, or is known better
   // since. If its arrival is told already, only asks again whether it is what is missing elsewhere.
   void OnArrived(Map& map, ObjectId object, Stamp now, std::uint32_t session) const;
@@ -37,7 +41,9 @@ class ChangeList {
   // Whether the two look alike beyond doubt, whatever they are called.
   bool LooksTheSame(const MapObject& a, const MapObject& b) const;
 
-  // What is told of it, if anything, is that it has gone, not what became of it.
+  // What is told of it is that it has gone, not what became of it ...
+  bool IsToldGone(const MapView& map, ObjectId gone) const;
+  // ... or nothing.
   bool MayTurnUp(const MapView& map, ObjectId gone) const;
 
   // Whether the object may have been the origin, a thing that has gone.
@@ -61,7 +67,9 @@ class ChangeList {
   };
   std::optional<Pairing> PairUp(const MapView& map, const MapChange& change,
                                 const MapChange& told) const;
-  void AddJoined(Map& map, const MapChange& change) const;
+  MapChange GoneOf(const MapView& map, ObjectId id, Stamp now, int num_views,
+                   std::uint32_t session) const;
+  void AddJoined(Map& map, const MapChange& change, ObjectId preferred = {}) const;
   void RejoinAdded(Map& map, MapChange added, Stamp now) const;
   bool TakeBackDisplacement(Map& map, ObjectId id, Stamp now) const;
   bool Join(const MapView& map, MapChange& change, const MapChange& other) const;

@@ -72,6 +72,22 @@ TEST_F(ChangeListTest, LeavesARemovalWhenTheNewPlaceWasAMistake) {
   EXPECT_FALSE(map_.changes()[0].new_object.valid());
 }
 
+TEST_F(ChangeListTest, GivesAnOriginToTheThingItWasFoundForThoughAnotherIsAlike) {
+  const ObjectId origin = AddObject(kHere, 0, 5);
+  const ObjectId chair = AddObject(kThere, 12, 15);
+  const ObjectId twin = AddObject({-0.9, 0.0, 2.2}, 12, 15);
+  Arrive(chair);
+  Arrive(twin);
+  MapObject gone = *map_.FindObject(origin);
+  gone.state = ObjectState::kAbsent;
+  gone.absent_since = kNow;
+  map_.SetObject(std::move(gone));
+  list_.OnOriginFound(map_, origin, chair, kNow, 3, session_);
+  ASSERT_EQ(KindsToldIn(map_), (std::vector{Kind::kAdded, Kind::kMoved}));
+  EXPECT_EQ(map_.changes()[0].object, twin);
+  EXPECT_EQ(map_.changes()[1].new_object, chair);
+}
+
 TEST_F(ChangeListTest, TellsAMoveOnceTheNewPlaceIsKnownBetter) {
   const ObjectId old_chair = AddObject(kHere, 0, 5);
   const ObjectId new_chair = AddObject(kThere, 12, 15, kChairClass, 2.0F, 0.1);  // a leg

@@ -3,6 +3,7 @@
 #include "cslam/mapping/object_origins.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace cslam {
@@ -20,6 +21,7 @@ void ObjectOrigins::Update(Map& map, KeyframeId keyframe, const Eigen::Vector3d&
   const bool has_news = gone_.LookThrough(map, keyframe);
   const MapId map_id = map.FindKeyframe(keyframe)->map;
   for (const ObjectId id : changes_.CameFromNowhere(map)) {
+    if (!std::ranges::count(changes_.CameFromNowhere(map), id)) continue;  // by now it has moved
     const MapObject object = *map.FindObject(id);
     if (object.map != map_id || object.state != ObjectState::kPresent ||
         (!has_news && object.last_keyframe != keyframe) || MayHaveMovedUnseen(map, object)) {
@@ -70,11 +72,11 @@ void ObjectOrigins::TellOrigin(Map& map, const MapObject& origin, const MapObjec
   const auto session = static_cast<std::uint32_t>(map.SessionOf(keyframe));
   const auto known = CalledOtherwise(map, origin, object);
   if (!known) {
-    changes_.OnGone(map, map.AddObject(origin), now, num_through, session);
+    changes_.OnOriginFound(map, map.AddObject(origin), object.id, now, num_through, session);
     return;
   }
   MapObject renamed = *map.FindObject(*known);
-  const bool is_gone = renamed.state == ObjectState::kAbsent;
+  const bool is_told = renamed.state == ObjectState::kAbsent && changes_.IsToldGone(map, *known);
   renamed.class_id = object.class_id;
   renamed.votes.clear();  // it was never called that
   renamed.state = ObjectState::kAbsent;
@@ -82,10 +84,10 @@ void ObjectOrigins::TellOrigin(Map& map, const MapObject& origin, const MapObjec
   renamed.log_odds = std::min(renamed.log_odds, LogOdds(options_.belief.absent_at));
   if (!renamed.absent_since) renamed.absent_since = origin.absent_since;
   map.SetObject(std::move(renamed));
-  if (is_gone) {
+  if (is_told) {
     changes_.OnSeenAgain(map, object.id, now);
   } else {
-    changes_.OnGone(map, *known, now, num_through, session);
+    changes_.OnOriginFound(map, *known, object.id, now, num_through, session);
   }
 }
 
